@@ -31,21 +31,16 @@
 #include "integrate/cubature.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/constant.h"
 #include "base/elementary.h"
 #include "base/range.h"
-#include "base/vec3.h"
 #include "base/work.h"
 
 /* Limit on the halvings of a cell, and the size of the stack: quartering takes two halvings, and
    leaves three more cells on the stack. */
 #define HALVINGS_MAX 64u
 #define STACK_CELLS  (3 * HALVINGS_MAX / 2 + 4)
-/* Limit on the corners of a cell: a cell with as many is halved along a diagonal, which leaves
-   fewer. */
-#define CORNERS 8
 /* Limit on the cells of one sum, apart from those into which a triangle may always be divided. */
 #define SPLITS_MAX (1u << 15)
 /* Where that limit is reached, the tolerance is increased by this factor, up to a maximum. */
@@ -65,28 +60,6 @@
    the laser. */
 #define TAN2_MAX 1e300
 
-/* The value of the rule on a cell. */
-typedef struct cubature_value {
-    double glint, diffuse, rounding;
-    double glint_u, diffuse_log; /* if sum.surface.derivatives */
-    double weighted;             /* f_r cos times the caller's linear function; 0 without one */
-} cubature_value;
-
-/* A convex polygon. Positions are relative to the first corner, so that their errors stay below a
-   few u of the cell's size, however small it is. */
-struct lrcsi_cubature_cell {
-    double normal[CORNERS][3], at[CORNERS][2], weight[CORNERS];
-    int count;
-    double unit;     /* the area of a unit square of positions */
-    double theta;    /* the angle between the mean of its corners' normals and the laser */
-    double skipped;  /* bound on the terms, per area, that the rule is allowed to miss */
-    uint32_t depth;  /* halvings that made it from the triangle */
-    int trusted;     /* 1: the rule is trusted, and `value` is its value */
-    double rule_err; /* estimated relative error of an uncompared rule, else 1 */
-    cubature_value value;
-};
-typedef struct lrcsi_cubature_cell cubature_cell;
-
 /* --- the rule --------------------------------------------------------------------------------- */
 
 /* A bound on the error of f_r cos at a node of the rule where the normal has an error of d, rad.
@@ -95,7 +68,7 @@ typedef struct lrcsi_cubature_cell cubature_cell;
    for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. If the change may be larger, the error is at most
    the upper bound of the term in the neighbourhood. */
 static double node_position_err(const lrcsi_cubature *sum, double u, double d,
-                                const cubature_value *at)
+                                const lrcsi_cubature_value *at)
 {
     const lrcs_brdf *brdf = sum->surface.brdf;
     double t = sqrt(u) + 2 * d * (1 + u);
@@ -111,9 +84,9 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d,
 
 /* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 has
    a relative error of 6 u, which is at most 2 u in theta and part of the position error. */
-static cubature_value node_value(const lrcsi_cubature *sum, const double n[3])
+static lrcsi_cubature_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
-    cubature_value at = {0, 0, 0, 0, 0, 0};
+    lrcsi_cubature_value at = {0, 0, 0, 0, 0, 0};
     if (!(n[2] > 0)) {
         return at;
     }
@@ -131,7 +104,7 @@ static cubature_value node_value(const lrcsi_cubature *sum, const double n[3])
     return at;
 }
 
-static void value_add(cubature_value *sum, double weight, const cubature_value *value)
+static void value_add(lrcsi_cubature_value *sum, double weight, const lrcsi_cubature_value *value)
 {
     sum->glint += weight * value->glint;
     sum->diffuse += weight * value->diffuse;
@@ -141,38 +114,20 @@ static void value_add(cubature_value *sum, double weight, const cubature_value *
     sum->weighted += weight * value->weighted;
 }
 
-/* Twice the area of the triangle of corners 0, i and i + 1, in units of the cell's. */
-static double fan_cross(const cubature_cell *cell, int i)
-{
-    const double *u = cell->at[i];
-    const double *v = cell->at[i + 1];
-    return u[0] * v[1] - u[1] * v[0];
-}
-
-/* A bound on the rounding error of half of it. Each halving adds an error of 2 u of the cell's size
-   to positions, which is that times the size in the area; the area itself adds 4 u. */
-static double fan_area_err(const cubature_cell *cell, int i)
-{
-    const double *u = cell->at[i];
-    const double *v = cell->at[i + 1];
-    return 8 * LRCSI_U * (1 + cell->depth) *
-           (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
-}
-
 /* The value of the rule on a cell: the sum over the triangles of corners 0, i and i + 1. The nodes
    of a triangle are its centroid, with weight 9/40, and the points (a, a, 1 - 2 a) and their
    permutations, a = (6 -+ sqrt 15)/21, with weights (155 -+ sqrt 15)/1200. Weights and sums have
    relative errors below 16 u. */
-static cubature_value rule_value(const lrcsi_cubature *sum, const cubature_cell *cell)
+static lrcsi_cubature_value rule_value(const lrcsi_cubature *sum, const lrcsi_cubature_cell *cell)
 {
     static const double rule[3][3] = {
         {1.0 / 3, 1.0 / 3, 0.225},
         {0.10128650732345633880, 0.79742698535308732240, 0.12593918054482715260},
         {0.47014206410511508977, 0.05971587178976982046, 0.13239415278850618074}};
-    cubature_value value = {0, 0, 0, 0, 0, 0};
+    lrcsi_cubature_value value = {0, 0, 0, 0, 0, 0};
     for (int i = 1; i + 1 < cell->count; i++) {
-        double area = 0.5 * fan_cross(cell, i);
-        cubature_value mean = {0, 0, 0, 0, 0, 0};
+        double area = 0.5 * lrcsi_cubature_fan_cross(cell, i);
+        lrcsi_cubature_value mean = {0, 0, 0, 0, 0, 0};
         for (int k = 0; k < 7 && area > 0; k++) {
             const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
             int odd = (k + 2) % 3;
@@ -181,7 +136,7 @@ static cubature_value rule_value(const lrcsi_cubature *sum, const cubature_cell 
                 n[c] = node[odd == 0] * cell->normal[0][c] + node[odd == 1] * cell->normal[i][c] +
                        node[odd == 2] * cell->normal[i + 1][c];
             }
-            cubature_value at = node_value(sum, n);
+            lrcsi_cubature_value at = node_value(sum, n);
             at.weighted = (at.glint + at.diffuse) *
                           (node[odd == 0] * cell->weight[0] + node[odd == 1] * cell->weight[i] +
                            node[odd == 2] * cell->weight[i + 1]);
@@ -189,56 +144,13 @@ static cubature_value rule_value(const lrcsi_cubature *sum, const cubature_cell 
         }
         mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
         value_add(&value, cell->unit * area, &mean);
-        value.rounding += cell->unit * fan_area_err(cell, i) * (mean.glint + mean.diffuse);
+        value.rounding +=
+            cell->unit * lrcsi_cubature_fan_err(cell, i) * (mean.glint + mean.diffuse);
     }
     return value;
 }
 
-static double cell_area(const cubature_cell *cell)
-{
-    double area = 0;
-    for (int i = 1; i + 1 < cell->count; i++) {
-        area += 0.5 * fan_cross(cell, i);
-    }
-    return lrcsi_max(0, cell->unit * area);
-}
-
 /* --- cells ------------------------------------------------------------------------------------ */
-
-static void cell_mean(const cubature_cell *cell, double n[3])
-{
-    for (int k = 0; k < 3; k++) {
-        n[k] = 0;
-        for (int i = 0; i < cell->count; i++) {
-            n[k] += cell->normal[i][k] / cell->count;
-        }
-    }
-}
-
-static void cell_measure(cubature_cell *cell)
-{
-    double n[3];
-    cell_mean(cell, n);
-    cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
-}
-
-/* The turn of a cell: the largest angle between the mean normal and any other normal. If it is less
-   than a right angle, it is attained at a corner, because a spherical cap smaller than a hemisphere
-   that contains the normals at the corners contains all normals between them. */
-static double cell_turn(const cubature_cell *cell)
-{
-    double n[3];
-    double tangent = 0;
-    cell_mean(cell, n);
-    for (int i = 0; i < cell->count; i++) {
-        const double *m = cell->normal[i];
-        double dot = lrcsi_vec3_dot(n, m);
-        double cross[3];
-        lrcsi_vec3_cross(n, m, cross);
-        tangent = lrcsi_max(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
-    }
-    return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCS_PI;
-}
 
 /* Errors of f_r cos below this are accepted. */
 static double accepted_error(const lrcsi_cubature *sum)
@@ -249,11 +161,12 @@ static double accepted_error(const lrcsi_cubature *sum)
 /* Decides whether the rule is trusted on the cell, and evaluates it if so:
    1. whether the normals turn little enough for the glint and for the diffuse term;
    2. if not, whether the terms are negligible on the cell, by their proved upper bound;
-   3. the estimated error of the rule, from the turn relative to the widths of the terms. */
-static void cell_trust(const lrcsi_cubature *sum, cubature_cell *cell)
+   3. the estimated error of the rule, from the turn relative to the widths of the terms.
+   weight_max: the largest magnitude of the caller's linear function; negative: there is none. */
+static void cell_trust(const lrcsi_cubature *sum, double weight_max, lrcsi_cubature_cell *cell)
 {
     const lrcs_brdf *brdf = sum->surface.brdf;
-    double turn = cell_turn(cell);
+    double turn = lrcsi_cubature_cell_turn(cell);
     double cosine = cos(cell->theta);
     double t = fabs(tan(cell->theta));
     double width = brdf->s * cosine * cosine * lrcsi_min(1, 2 * brdf->s / t); /* of the glint */
@@ -276,150 +189,14 @@ static void cell_trust(const lrcsi_cubature *sum, cubature_cell *cell)
     double p = lrcsi_max(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
     p = lrcsi_max(p, brdf->A > 0 && glint_resolved ? turn / width : 0);
     double fifth = p * p * p * p * p;
-    cell->rule_err = p < 1 ? fifth * (sum->weight ? 1 : p) : 1;
+    cell->rule_err = p < 1 ? fifth * (weight_max >= 0 ? 1 : p) : 1;
     if (cell->trusted) {
         cell->value = rule_value(sum, cell);
     }
 }
 
-/* Adds a corner, unless there is no room for it. That does not happen with convex cells; a cell
-   that rounding has left not quite convex may lose a sliver. */
-static void corner_add(cubature_cell *cell, const double normal[3], const double at[2],
-                       double weight)
-{
-    if (cell->count == CORNERS) {
-        return;
-    }
-    memcpy(cell->normal[cell->count], normal, sizeof cell->normal[0]);
-    memcpy(cell->at[cell->count], at, sizeof cell->at[0]);
-    cell->weight[cell->count++] = weight;
-}
-
-/* The part of a cell where sign * level >= 0. `level` is a linear function of position, given by
-   its values at the corners. */
-static void cell_cut(const cubature_cell *cell, const double level[CORNERS], int sign,
-                     cubature_cell *part)
-{
-    for (int i = 0; i < cell->count; i++) {
-        int j = (i + 1) % cell->count;
-        double here = sign * level[i];
-        double there = sign * level[j];
-        if (here >= 0) {
-            corner_add(part, cell->normal[i], cell->at[i], cell->weight[i]);
-        }
-        if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
-            double t = here / (here - there); /* where the level is 0 */
-            double normal[3];
-            double at[2];
-            for (int k = 0; k < 3; k++) {
-                normal[k] = cell->normal[i][k] + t * (cell->normal[j][k] - cell->normal[i][k]);
-            }
-            for (int k = 0; k < 2; k++) {
-                at[k] = cell->at[i][k] + t * (cell->at[j][k] - cell->at[i][k]);
-            }
-            corner_add(part, normal, at, cell->weight[i] + t * (cell->weight[j] - cell->weight[i]));
-        }
-    }
-}
-
-/* Makes positions relative to the first corner, and finds the angle to the laser. */
-static void cell_finish(cubature_cell *cell)
-{
-    for (int i = cell->count - 1; i >= 0; i--) {
-        cell->at[i][0] -= cell->at[0][0];
-        cell->at[i][1] -= cell->at[0][1];
-    }
-    cell_measure(cell);
-}
-
-/* The chord between the two unit normals at corners that are farthest apart, which is the direction
-   in which normals turn most; and these corners. */
-static void cell_chord(const cubature_cell *cell, int *from, int *to, double chord[3])
-{
-    double unit[CORNERS][3];
-    double longest = -1;
-    for (int i = 0; i < cell->count; i++) {
-        double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
-        for (int k = 0; k < 3; k++) {
-            unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
-        }
-        for (int j = 0; j < i; j++) {
-            const double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
-                                     unit[i][2] - unit[j][2]};
-            double square = lrcsi_vec3_dot(apart, apart);
-            if (square > longest) {
-                longest = square;
-                *from = j;
-                *to = i;
-                memcpy(chord, apart, sizeof apart);
-            }
-        }
-    }
-}
-
-/* Halves a cell by a line, which is the zero line of a linear function `level` of position, given
-   by its values at the corners. Because levels depend on positions only, the areas of the halves
-   add up to that of the cell whatever the errors of normals are.
-   1. The gradient g, up to a positive factor, of the component of the normals along their longest
-      chord, in the largest triangle of the fan.
-   2. The line perpendicular to g, midway between the ends of the chord; a diagonal if the cell has
-      CORNERS corners. If no level is negative, for instance because all normals are the same, the
-      first half is the whole cell, and the second one is empty.
-   3. The halves. The normals of half[1] are closer to the direction to the laser. */
-static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
-{
-    double chord[3] = {0, 0, 0};
-    int from = 0;
-    int to = 0;
-    cell_chord(cell, &from, &to, chord);
-    double g[2] = {0, 0};
-    double largest = 0;
-    for (int i = 1; i + 1 < cell->count; i++) { /* 1 */
-        const double *u = cell->at[i];
-        const double *v = cell->at[i + 1];
-        double gu = 0;
-        double gv = 0;
-        for (int k = 0; k < 3; k++) {
-            gu += chord[k] * (cell->normal[i][k] - cell->normal[0][k]);
-            gv += chord[k] * (cell->normal[i + 1][k] - cell->normal[0][k]);
-        }
-        if (fan_cross(cell, i) > largest) {
-            largest = fan_cross(cell, i);
-            g[0] = gu * v[1] - gv * u[1];
-            g[1] = gv * u[0] - gu * v[0];
-        }
-    }
-    double level[CORNERS];
-    int below = 0;
-    const double *p = cell->at[CORNERS / 2];
-    for (int i = 0; i < cell->count; i++) { /* 2 */
-        const double *at = cell->at[i];
-        level[i] = cell->count == CORNERS
-                       ? p[0] * at[1] - p[1] * at[0]
-                       : g[0] * (at[0] - 0.5 * (cell->at[from][0] + cell->at[to][0])) +
-                             g[1] * (at[1] - 0.5 * (cell->at[from][1] + cell->at[to][1]));
-        below |= level[i] < 0;
-    }
-    for (int h = 0; h < 2; h++) { /* 3 */
-        half[h] = (cubature_cell){.unit = cell->unit,
-                                  .skipped = cell->skipped,
-                                  .depth = cell->depth + 1,
-                                  .trusted = cell->trusted,
-                                  .rule_err = 1};
-        if (h == 0 || below) {
-            cell_cut(cell, level, h == 0 ? 1 : -1, &half[h]);
-        }
-        cell_finish(&half[h]);
-    }
-    if (half[0].theta < half[1].theta) {
-        cubature_cell other = half[0];
-        half[0] = half[1];
-        half[1] = other;
-    }
-}
-
 /* Adds the value of a cell to the sum. */
-static void sum_keep(lrcsi_cubature *sum, const cubature_cell *cell)
+static void sum_keep(lrcsi_cubature *sum, const lrcsi_cubature_cell *cell)
 {
     lrcsi_sum_add(&sum->glint, cell->value.glint);
     lrcsi_sum_add(&sum->diffuse, cell->value.diffuse);
@@ -429,28 +206,18 @@ static void sum_keep(lrcsi_cubature *sum, const cubature_cell *cell)
     lrcsi_sum_add(&sum->weighted, cell->value.weighted);
 }
 
-/* The length of the shortest normal at a corner. */
-static double cell_shortest(const cubature_cell *cell)
-{
-    double shortest = HUGE_VAL;
-    for (int i = 0; i < cell->count; i++) {
-        shortest = lrcsi_min(shortest, sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i])));
-    }
-    return shortest;
-}
-
 /* An upper bound both of the integral over a cell and of the value of the rule on it. Its normals
    lie in a cone about their mean, and have errors of at most position_err. */
-static double cell_integral_bound(const lrcsi_cubature *sum, const cubature_cell *cell)
+static double cell_integral_bound(const lrcsi_cubature *sum, const lrcsi_cubature_cell *cell)
 {
-    double err = 2 * sum->surface.position_err / cell_shortest(cell);
-    double turn = err <= 1 ? cell_turn(cell) + err : LRCS_PI;
+    double err = 2 * sum->surface.position_err / lrcsi_cubature_cell_shortest(cell);
+    double turn = err <= 1 ? lrcsi_cubature_cell_turn(cell) + err : LRCS_PI;
     lrcsi_reflection bound = lrcsi_reflect_bound(sum->surface.brdf, cell->theta, turn);
     double area_err = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
-        area_err += fan_area_err(cell, i);
+        area_err += lrcsi_cubature_fan_err(cell, i);
     }
-    return (cell_area(cell) + cell->unit * area_err) * (bound.glint + bound.diffuse);
+    return (lrcsi_cubature_cell_area(cell) + cell->unit * area_err) * (bound.glint + bound.diffuse);
 }
 
 /* Adds the error of a cell that is not divided further although it is not accurate enough: its
@@ -471,15 +238,15 @@ static void sum_add_error(lrcsi_cubature *sum, double bound, double estimate)
    3. Any other cell is compared with its quarters, the halves of both halves. They count if their
       values agree with that of the cell, or if it may not be divided; otherwise the quarters are
       the parts. */
-static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divide,
-                          cubature_cell part[4])
+static uint32_t cell_step(lrcsi_cubature *sum, double weight_max, lrcsi_cubature_cell *cell,
+                          int may_divide, lrcsi_cubature_cell part[4])
 {
     if (!cell->trusted) {
-        cell_trust(sum, cell);
+        cell_trust(sum, weight_max, cell);
     }
     if (!cell->trusted) { /* 1 */
         if (may_divide) {
-            cell_halve(cell, part);
+            lrcsi_cubature_cell_halve(cell, part);
             return 2;
         }
         double bound = cell_integral_bound(sum, cell);
@@ -488,29 +255,27 @@ static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divi
         sum_add_error(sum, bound, bound);
         return 0;
     }
-    double area = cell_area(cell);
+    double area = lrcsi_cubature_cell_area(cell);
     double value = cell->value.glint + cell->value.diffuse;
     if (cell->rule_err * value <= sum->tolerance * value + accepted_error(sum) * area) { /* 2 */
         sum_keep(sum, cell);
         sum->estimate += cell->rule_err * value + cell->skipped * area;
         return 0;
     }
-    cubature_cell half[2]; /* 3 */
-    cubature_value all = {0, 0, 0, 0, 0, 0};
-    cell_halve(cell, half);
-    cell_halve(&half[0], &part[0]);
-    cell_halve(&half[1], &part[2]);
+    lrcsi_cubature_cell half[2]; /* 3 */
+    lrcsi_cubature_value all = {0, 0, 0, 0, 0, 0};
+    lrcsi_cubature_cell_halve(cell, half);
+    lrcsi_cubature_cell_halve(&half[0], &part[0]);
+    lrcsi_cubature_cell_halve(&half[1], &part[2]);
     for (int i = 0; i < 4; i++) {
         part[i].value = rule_value(sum, &part[i]);
         value_add(&all, 1, &part[i].value);
     }
     double difference =
         fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
-    if (sum->weight) { /* the weighted integral must agree too, relative to the largest weight */
-        const double *w = sum->weight;
-        double largest = lrcsi_max(fabs(w[0]), lrcsi_max(fabs(w[1]), fabs(w[2])));
+    if (weight_max > 0) { /* the weighted integral must agree too, relative to the largest weight */
         double weighted = fabs(all.weighted - cell->value.weighted);
-        difference = largest > 0 ? lrcsi_max(difference, weighted / largest) : difference;
+        difference = lrcsi_max(difference, weighted / weight_max);
     }
     double sum_so_far = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double allowed =
@@ -533,21 +298,21 @@ static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divi
 
 /* Adds a cell, dividing it as far as necessary. The first cell may always be divided, the others
    only while the meter is not spent. */
-static void cells_add(lrcsi_cubature *sum, cubature_cell first)
+static void cells_add(lrcsi_cubature *sum, double weight_max, lrcsi_cubature_cell first)
 {
-    cubature_cell part[4];
+    lrcsi_cubature_cell part[4];
     uint32_t top = 0;
-    cell_finish(&first);
+    lrcsi_cubature_cell_finish(&first);
     sum->surface.stack[top++] = first;
     while (top > 0) {
-        cubature_cell cell = sum->surface.stack[--top];
+        lrcsi_cubature_cell cell = sum->surface.stack[--top];
         int left = lrcsi_meter_take(sum->surface.meter, CELL_STEPS);
         int may_divide =
             cell.depth == 0 || (left && cell.depth + 2 <= HALVINGS_MAX && sum->splits < SPLITS_MAX);
-        uint32_t parts = cell_step(sum, &cell, may_divide, part);
+        uint32_t parts = cell_step(sum, weight_max, &cell, may_divide, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
-            if (part[i].count >= 3 && cell_area(&part[i]) > 0) {
+            if (part[i].count >= 3 && lrcsi_cubature_cell_area(&part[i]) > 0) {
                 sum->surface.stack[top++] = part[i];
             }
         }
@@ -556,50 +321,44 @@ static void cells_add(lrcsi_cubature *sum, cubature_cell first)
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* Makes a cell from a triangle. Given: the normals at its corners; the values of the caller's
-   linear function there (NULL: 0); its area. */
-static cubature_cell cell_of(const double normal[3][3], const double weight[3], double area)
-{
-    static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    cubature_cell cell = {.unit = 2 * area};
-    for (int i = 0; i < 3; i++) {
-        corner_add(&cell, normal[i], at[i], weight ? weight[i] : 0);
-    }
-    return cell;
-}
-
 size_t lrcsi_cubature_need(void)
 {
-    return lrcsi_work_bytes(STACK_CELLS, sizeof(cubature_cell));
+    return lrcsi_work_bytes(STACK_CELLS, sizeof(lrcsi_cubature_cell));
 }
 
 lrcsi_cubature_cell *lrcsi_cubature_stack(lrcs_work *work)
 {
-    return lrcsi_work_take(work, STACK_CELLS, sizeof(cubature_cell));
+    return lrcsi_work_take(work, STACK_CELLS, sizeof(lrcsi_cubature_cell));
 }
 
-lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
-                                   double tolerance, lrcsi_cubature_cell *stack)
+lrcsi_cubature_surface lrcsi_cubature_surface_make(const lrcs_brdf *brdf, const double normal[3][3],
+                                                   double tolerance, lrcsi_cubature_cell *stack)
 {
-    lrcsi_cubature sum = {.surface = {.brdf = brdf, .stack = stack}, .tolerance = tolerance};
-    cubature_cell cell = cell_of(normal, NULL, 0);
-    cell_measure(&cell);
-    sum.surface.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cell_turn(&cell) + 0x1p-40);
-    double farthest = cell.theta + cell_turn(&cell);
-    sum.surface.diffuse_min =
+    lrcsi_cubature_surface surface = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
+    lrcsi_cubature_cell cell = lrcsi_cubature_cell_of(normal, NULL, 0);
+    lrcsi_cubature_cell_finish(&cell);
+    double turn = lrcsi_cubature_cell_turn(&cell);
+    surface.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, turn + 0x1p-40);
+    double farthest = cell.theta + turn;
+    surface.diffuse_min =
         farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
-    sum.surface.negligible = NEGLIGIBLE * tolerance *
-                             (sum.surface.upper_bound.glint * lrcsi_min(1, brdf->s * brdf->s) +
-                              sum.surface.upper_bound.diffuse / (brdf->m + 1));
-    sum.surface.negligible = lrcsi_max(sum.surface.negligible, TERM_MIN * (brdf->A + brdf->B));
-    return sum;
+    surface.negligible = NEGLIGIBLE * tolerance *
+                         (surface.upper_bound.glint * lrcsi_min(1, brdf->s * brdf->s) +
+                          surface.upper_bound.diffuse / (brdf->m + 1));
+    surface.negligible = lrcsi_max(surface.negligible, TERM_MIN * (brdf->A + brdf->B));
+    return surface;
+}
+
+lrcsi_cubature lrcsi_cubature_start(const lrcsi_cubature_surface *surface)
+{
+    return (lrcsi_cubature){.surface = *surface, .tolerance = surface->tolerance};
 }
 
 /* A bound, per area, on what is missed where a normal faces the laser and its computed value, which
    has an error of position_err, does not. The angle between such a normal and the plane n . s_hat =
    0 is at most position_err over the length of the normal, which is at least that of the shortest
    normal at a corner times the cosine of the turn. */
-static double unlit_position_err(const lrcsi_cubature *sum, const cubature_cell *whole)
+static double unlit_position_err(const lrcsi_cubature *sum, const lrcsi_cubature_cell *whole)
 {
     double lowest = HUGE_VAL;
     double highest = -HUGE_VAL;
@@ -610,35 +369,40 @@ static double unlit_position_err(const lrcsi_cubature *sum, const cubature_cell 
     if (lowest > sum->surface.position_err || highest < -sum->surface.position_err) {
         return 0;
     }
-    double turn = cell_turn(whole);
-    double length = turn < LRCS_PI / 2 ? cell_shortest(whole) * cos(turn) : 0;
+    double turn = lrcsi_cubature_cell_turn(whole);
+    double length = turn < LRCS_PI / 2 ? lrcsi_cubature_cell_shortest(whole) * cos(turn) : 0;
     double err = 2 * sum->surface.position_err / length;
     lrcsi_reflection seen =
         lrcsi_reflect_bound(sum->surface.brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
     return seen.glint + seen.diffuse;
 }
 
-void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area)
+void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], const double weight[3],
+                        double area)
 {
-    double level[CORNERS] = {0};
-    cubature_cell whole = cell_of(normal, sum->weight, area);
-    cubature_cell lit = {.unit = whole.unit};
+    double level[LRCSI_CUBATURE_CORNERS] = {0};
+    lrcsi_cubature_cell whole = lrcsi_cubature_cell_of(normal, weight, area);
+    lrcsi_cubature_cell lit = {.unit = whole.unit};
+    double weight_max = -1;
+    for (int i = 0; i < 3 && weight; i++) {
+        weight_max = lrcsi_max(weight_max, fabs(weight[i]));
+    }
     if (!(area > 0)) {
         return;
     }
     for (int i = 0; i < 3; i++) {
         level[i] = normal[i][2];
     }
-    cell_cut(&whole, level, 1, &lit);
+    lrcsi_cubature_cell_cut(&whole, level, 1, &lit);
     sum->rounding += area * unlit_position_err(sum, &whole);
     if (lit.count < 3) {
         return;
     }
     lrcsi_cubature start = *sum;
-    cells_add(sum, lit);
+    cells_add(sum, weight_max, lit);
     while (sum->splits >= SPLITS_MAX && start.tolerance < TOLERANCE_MAX) {
         start.tolerance *= TOLERANCE_FACTOR;
         *sum = start;
-        cells_add(sum, lit);
+        cells_add(sum, weight_max, lit);
     }
 }

@@ -56,18 +56,18 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
         CUBATURE_MAX, lrcsi_max(CUBATURE_MIN, CUBATURE_FRACTION * context->options->tolerance));
     integral->brdf =
         lrcsi_plan_brdf(context->options->plan, lrcsi_prepared_material(view->prepared, facet));
-    integral->sum = lrcsi_cubature_make(&integral->brdf, (const double(*)[3])integral->normal,
-                                        cubature_tolerance, context->options->stack);
-    integral->sum.surface.area = integral->incidence.projected;
-    integral->sum.surface.position_err = NORMAL_ERR;
-    integral->sum.surface.meter = context->options->meter;
-    integral->sum.surface.derivatives = context->options->derivatives;
-    integral->sum.surface.negligible =
-        lrcsi_max(integral->sum.surface.negligible, context->negligible);
-    integral->sum.surface.reference =
-        context->sum > 0 ? context->sum / context->projected +
-                               context->sum / context->count / integral->incidence.projected
-                         : 0;
+    lrcsi_cubature_surface *surface = &integral->surface;
+    *surface = lrcsi_cubature_surface_make(&integral->brdf, (const double(*)[3])integral->normal,
+                                           cubature_tolerance, context->options->stack);
+    surface->area = integral->incidence.projected;
+    surface->position_err = NORMAL_ERR;
+    surface->meter = context->options->meter;
+    surface->derivatives = context->options->derivatives;
+    surface->negligible = lrcsi_max(surface->negligible, context->negligible);
+    surface->reference = context->sum > 0
+                             ? context->sum / context->projected +
+                                   context->sum / context->count / integral->incidence.projected
+                             : 0;
 }
 
 lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
@@ -78,7 +78,7 @@ lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
-            context.negligible = integral.sum.surface.negligible;
+            context.negligible = integral.surface.negligible;
             context.projected += integral.incidence.projected;
             context.count++;
         }
@@ -93,13 +93,13 @@ void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma)
 
 double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
 {
-    return integral->sum.surface.upper_bound.glint + integral->sum.surface.upper_bound.diffuse;
+    return integral->surface.upper_bound.glint + integral->surface.upper_bound.diffuse;
 }
 
 /* The contribution of a facet: its integral times the visible fraction. */
-static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double fraction)
+static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, const lrcsi_cubature *sum,
+                                  double fraction)
 {
-    const lrcsi_cubature *sum = &integral->sum;
     double factor = LRCS_FOUR_PI * fraction;
     lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
@@ -117,15 +117,16 @@ static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double f
 /* --- from areas ------------------------------------------------------------------------------- */
 
 /* The contribution of a facet of which only the visible area is known. */
-static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral,
-                                    const lrcsi_visible_area *visible)
+static lrcsi_curved curve_from_area(const lrcsi_curve_integral *integral,
+                                    const lrcsi_visible *visible)
 {
+    lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
     if (!(visible->high > 0)) {
-        return integral_part(integral, 0);
+        return integral_part(integral, &sum, 0);
     }
     double projected = integral->incidence.projected;
-    lrcsi_cubature_add(&integral->sum, (const double(*)[3])integral->normal, projected);
-    double whole = lrcsi_sum_value(&integral->sum.glint) + lrcsi_sum_value(&integral->sum.diffuse);
+    lrcsi_cubature_add(&sum, (const double(*)[3])integral->normal, NULL, projected);
+    double whole = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
     double bound = lrcsi_curve_upper_bound(integral);
     double high = visible->high < projected ? lrcsi_min(whole, bound * visible->high) : whole;
     double low =
@@ -134,13 +135,12 @@ static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral,
         low = high;
     }
     double value = lrcsi_min(high, lrcsi_max(low, visible->area / projected * whole));
-    lrcsi_curved part = integral_part(integral, whole > 0 ? value / whole : 0);
-    part.visibility =
-        LRCS_FOUR_PI * (lrcsi_max(high - value, value - low) + integral->sum.unresolved);
-    part.rounding = integral_part(integral, 1).rounding;
+    lrcsi_curved part = integral_part(integral, &sum, whole > 0 ? value / whole : 0);
+    part.visibility = LRCS_FOUR_PI * (lrcsi_max(high - value, value - low) + sum.unresolved);
+    part.rounding = integral_part(integral, &sum, 1).rounding;
     part.error_estimate =
         part.visibility > 0 ? (LRCS_FOUR_PI * whole / projected) * visible->error_estimate : 0;
-    part.estimate = LRCS_FOUR_PI * integral->sum.estimate;
+    part.estimate = LRCS_FOUR_PI * sum.estimate;
     return part;
 }
 
@@ -165,8 +165,8 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
 
 /* Adds a convex piece as a fan of triangles from its first corner. Returns a bound on the error of
    its area. */
-static double piece_add(lrcsi_curve_integral *integral, const lrcsi_target *target,
-                        const double (*corner)[2], uint32_t count)
+static double piece_add(const lrcsi_curve_integral *integral, const lrcsi_target *target,
+                        const double (*corner)[2], uint32_t count, lrcsi_cubature *sum)
 {
     double normal[3][3]; /* at corners 0, i - 1 and i */
     double area_err = 0;
@@ -182,7 +182,7 @@ static double piece_add(lrcsi_curve_integral *integral, const lrcsi_target *targ
             continue;
         }
         double area = lrcsi_clip_fan_area(corner[0], corner[i - 1], corner[i], &area_err);
-        lrcsi_cubature_add(&integral->sum, (const double(*)[3])normal, area); /* if positive */
+        lrcsi_cubature_add(sum, (const double(*)[3])normal, NULL, area); /* if positive */
         for (int k = 0; k < 3; k++) {
             normal[1][k] = normal[2][k];
         }
@@ -201,22 +201,23 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 
 /* The contribution of a facet with curved normals, from its visible pieces. Given: o, which has
    opened the facet, and is closed here. */
-static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occlusion *o,
-                                      lrcsi_visible_area *visible)
+static lrcsi_curved curve_from_pieces(const lrcsi_curve_integral *integral, lrcsi_occlusion *o,
+                                      lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->single.target;
     double area_err = 20 * LRCSI_U * target->reach * target->perimeter;
-    integral->sum.surface.position_err = lrcsi_curve_position_err(integral, target);
+    lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
+    sum.surface.position_err = lrcsi_curve_position_err(integral, target);
     while (lrcsi_occlude_next(o)) {
         area_err += piece_add(integral, target, (const double(*)[2])o->single.piece.corner,
-                              o->single.piece.count);
+                              o->single.piece.count, &sum);
     }
     area_err += o->single.piece_err;
-    *visible = lrcsi_visible_area_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
-    lrcsi_curved part = integral_part(integral, 1);
+    *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
+    lrcsi_curved part = integral_part(integral, &sum, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
                                           (visible->high - visible->low + area_err) +
-                                      integral->sum.unresolved);
+                                      sum.unresolved);
     return part;
 }
 

@@ -43,14 +43,15 @@ typedef struct lrcsi_curve_context {
     double sum;        /* the integral of f_r cos over the visible parts of the facets so far */
 } lrcsi_curve_context;
 
-/* The integral over one facet. sum.brdf points into it, so that it must not be copied. */
+/* What the integral over one facet is taken over. surface.brdf points into it, so that it must not
+   be copied. */
 typedef struct lrcsi_curve_integral {
     const lrcsi_view *view;
     uint32_t facet;
     lrcsi_incidence incidence;
     lrcs_brdf brdf;
-    double normal[3][3]; /* at its corners, view axes, on the side towards the laser */
-    lrcsi_cubature sum;  /* empty at first, with its tolerance and limits */
+    double normal[3][3];            /* at its corners, view axes, on the side towards the laser */
+    lrcsi_cubature_surface surface; /* position_err: for points of the whole facet */
 } lrcsi_curve_integral;
 
 /* 1 if a facet has curved normals and its side towards the laser reflects; else 0. */
@@ -63,16 +64,15 @@ lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
 /* Adds the contribution of a facet to sigma, scaled, to the sum so far. */
 void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma);
 
-/* Prepares the integral over one such facet, or over regions of it that the caller chooses.
-   sum.position_err is set for points of the whole facet. */
+/* Prepares the integral over one such facet, or over regions of it that the caller chooses. */
 void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t facet,
                                lrcsi_curve_integral *integral);
 
 /* An upper bound of f_r cos on the facet. */
 double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral);
 
-/* A bound on the error of normals at points of the facet's visible pieces, rad. The caller sets
-   sum.position_err to it before it integrates over such pieces. */
+/* A bound on the error of normals at points of the facet's visible pieces, rad:
+   surface.position_err of a sum over such pieces. */
 double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcsi_target *target);
 
 /* For facets of which only the visible area is known: the integral over the whole facet, times the

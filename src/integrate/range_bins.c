@@ -73,10 +73,10 @@ static void bin_add_smooth(lrcsi_range_bins *bins, const lrcsi_range_facet *f, u
 {
     double centre = centre_of(bins, i);
     const double weight[3] = {range[0] - centre, range[1] - centre, range[2] - centre};
-    lrcsi_cubature sum = {.surface = f->curve->sum.surface, .tolerance = f->curve->sum.tolerance};
+    lrcsi_cubature sum = lrcsi_cubature_start(&f->curve->surface);
     sum.surface.area = area;
-    sum.weight = weight;
-    lrcsi_cubature_add(&sum, normal, area);
+    sum.surface.position_err = f->position_err;
+    lrcsi_cubature_add(&sum, normal, weight, area);
     double glint = LRCS_FOUR_PI * lrcsi_sum_value(&sum.glint);
     double diffuse = LRCS_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
     double relative = f->curve->incidence.error + 16 * LRCSI_U + LRCSI_RANGE_AREA_ERR;

@@ -37,9 +37,10 @@ typedef struct lrcsi_range_facet {
     double range_dd_err;        /* the error of the ranges of corners before they were rounded */
     double extent;              /* upper bound of the distance in range of any two of its points */
     uint32_t first, last;       /* bins */
-    double glint, diffuse, rounding; /* of a flat facet */
-    double upper_bound;              /* of its true sigma per unit area, at any point */
-    lrcsi_curve_integral *curve;     /* NULL: its normals are not curved */
+    double glint, diffuse, rounding;   /* of a flat facet */
+    double upper_bound;                /* of its true sigma per unit area, at any point */
+    const lrcsi_curve_integral *curve; /* NULL: its normals are not curved */
+    double position_err;               /* of curved normals, at the corners of triangles */
 } lrcsi_range_facet;
 
 /* Relative error of the area of a triangle within a bin. */

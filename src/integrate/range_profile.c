@@ -193,7 +193,7 @@ static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_
 
 /* Adds the visible pieces of a facet, and returns the area D of part (2). On a convex surface
    fronts are visible without clipping, except those at grazing incidence. */
-static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t facet,
+static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
                          const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
@@ -209,7 +209,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
     double area_err = 0;
     lrcsi_occlude_open(o, facet);
     if (f->curve && o->undecided) {
-        f->curve->sum.surface.position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
+        f->position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
     }
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->single.target;
@@ -246,6 +246,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
     if (lrcsi_curve_applies(run->view, facet)) {
         lrcsi_curve_integral_make(&run->curves, facet, &curve);
         f.curve = &curve;
+        f.position_err = curve.surface.position_err;
         f.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =

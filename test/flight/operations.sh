@@ -10,7 +10,7 @@ questions='lrcsi_view_box_beside lrcsi_view_box_behind edge_crosses intersection
 lrcsi_sample_covers_towards line_nearer lrcsi_intersection_find facet_apart lrcsi_facet_cells_order sides_cover candidate_in_front
 lrcsi_cells_segment_marked lrcsi_clip_locate lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
-parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
+parts='lrcsi_cubature_surface_make lrcsi_cubature_add cell_step'
 flags='-std=c11 -ffp-contract=off -O0'
 # shellcheck disable=SC2086 # flags are words
 cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -c lrcs.c) &&

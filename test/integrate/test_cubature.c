@@ -22,16 +22,16 @@ static lrcsi_cubature start(const lrcs_brdf *brdf, const double normal[3][3], do
     assert_true(lrcsi_cubature_need() <= sizeof room);
     lrcsi_cubature_cell *stack = lrcsi_cubature_stack(&work);
     assert_non_null(stack);
-    lrcsi_cubature sum = lrcsi_cubature_make(brdf, normal, tolerance, stack);
-    sum.surface.area = 1;
-    sum.surface.position_err = 0x1p-44;
-    return sum;
+    lrcsi_cubature_surface surface = lrcsi_cubature_surface_make(brdf, normal, tolerance, stack);
+    surface.area = 1;
+    surface.position_err = 0x1p-44;
+    return lrcsi_cubature_start(&surface);
 }
 
 static lrcsi_cubature integrate(const lrcs_brdf *brdf, const double normal[3][3], double tolerance)
 {
     lrcsi_cubature sum = start(brdf, normal, tolerance);
-    lrcsi_cubature_add(&sum, normal, 1);
+    lrcsi_cubature_add(&sum, normal, NULL, 1);
     return sum;
 }
 
@@ -110,7 +110,7 @@ static void beside_others_the_error_is_larger_and_within_its_estimate(void **sta
         double want = v->glint + 0.25 * v->diffuse;
         lrcsi_cubature sum = start(&brdf, v->normal, 1e-6);
         sum.surface.reference = pow(10, (double)(i % 8)) * want;
-        lrcsi_cubature_add(&sum, v->normal, 1);
+        lrcsi_cubature_add(&sum, v->normal, NULL, 1);
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
         check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
         check_most(sum.estimate, 3e-6 * (want + sum.surface.reference));
@@ -136,7 +136,7 @@ static void a_dark_edge_is_within_its_estimate(void **state)
         lrcs_brdf brdf = {0, 1, 0.2, edge[i % 4].m};
         lrcsi_cubature sum = start(&brdf, normal, 1e-5);
         sum.surface.reference = ldexp(edge[i % 4].want, i / 4 * 2 - 4);
-        lrcsi_cubature_add(&sum, normal, 1);
+        lrcsi_cubature_add(&sum, normal, NULL, 1);
         check_abs(lrcsi_sum_value(&sum.diffuse), edge[i % 4].want, sum.estimate + sum.rounding);
     }
 }
@@ -213,7 +213,7 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
         lrcsi_cubature sum = start(&brdf, (const double(*)[3])normal, 1e-5);
         sum.surface.position_err = position_err;
         sum.surface.meter = &meter;
-        lrcsi_cubature_add(&sum, (const double(*)[3])normal, 1);
+        lrcsi_cubature_add(&sum, (const double(*)[3])normal, NULL, 1);
         double want = v->glint + 0.25 * v->diffuse;
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
         check_most(sum.estimate, 1e-4 * (want + got + sum.unresolved));
@@ -276,7 +276,7 @@ static void moments_of_one_incidence_are_products(void **state)
         const lrcs_brdf brdf = {i % 2, i / 2, i == 3 ? 0.4 : 0.02, i == 3 ? 2 : 1e4};
         lrcsi_cubature sum = start(&brdf, normal, 1e-6);
         sum.surface.derivatives = 1;
-        lrcsi_cubature_add(&sum, normal, 1);
+        lrcsi_cubature_add(&sum, normal, NULL, 1);
         double glint = lrcsi_sum_value(&sum.glint);
         double diffuse = lrcsi_sum_value(&sum.diffuse);
         check_abs(lrcsi_sum_value(&sum.glint_u), glint * u, 1e-14 * glint);
