@@ -113,10 +113,7 @@ static int centre_guess(const lrcs_point *corner, int facets, const double *axis
 /* The axis of a cone around which the normals lie, and the point where the facets' planes meet. */
 static int cone_guess(const lrcs_point corner[9], double normal[3][3], lrcs_quadric *surface)
 {
-    double apart[2][3];
-    lrcsi_vec3_between(normal[0], normal[1], apart[0]);
-    lrcsi_vec3_between(normal[0], normal[2], apart[1]);
-    lrcsi_vec3_cross(apart[0], apart[1], surface->axis);
+    lrcsi_vec3_normal(normal[0], normal[1], normal[2], surface->axis);
     normal_equations e;
     memset(&e, 0, sizeof e);
     e.count = 3;

@@ -129,8 +129,8 @@ static void cell_chord(const lrcsi_cubature_cell *cell, int *from, int *to, doub
             unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
         }
         for (int j = 0; j < i; j++) {
-            const double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
-                                     unit[i][2] - unit[j][2]};
+            double apart[3];
+            lrcsi_vec3_between(unit[j], unit[i], apart);
             double square = lrcsi_vec3_dot(apart, apart);
             if (square > longest) {
                 longest = square;

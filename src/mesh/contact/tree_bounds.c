@@ -173,16 +173,6 @@ int lrcsi_tree_slabs_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uin
 
 /* ---- cones ---- */
 
-/* Scales to length 1; returns 0 if the length is 0. */
-static int normalise(double v[3])
-{
-    double size = lrcsi_length(v);
-    for (int k = 0; k < 3 && size > 0.0; k++) {
-        v[k] /= size;
-    }
-    return size > 0.0;
-}
-
 /* The directions from a vertex to the two other corners of a facet that has it. */
 static void facet_directions(const lrcs_point *vertex, const lrcs_facet *facet, const double *from,
                              double direction[2][3])
@@ -198,7 +188,7 @@ static void facet_directions(const lrcs_point *vertex, const lrcs_facet *facet, 
         for (int k = 0; k < 3; k++) {
             direction[n][k] = x[k] - from[k];
         }
-        normalise(direction[n]);
+        lrcsi_length_normalise(direction[n]);
     }
 }
 
@@ -217,7 +207,7 @@ static lrcsi_tree_cone leaf_cone(const lrcs_point *vertex, const lrcs_facet *fac
             cone.axis[k] += direction[i][0][k] + direction[i][1][k];
         }
     }
-    int found = normalise(cone.axis);
+    int found = lrcsi_length_normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
         for (int n = 0; n < 2; n++) {
             cone.cosine = fmin(cone.cosine, lrcsi_vec3_dot(cone.axis, direction[i][n]));
@@ -245,7 +235,7 @@ static lrcsi_tree_cone node_cone(const lrcsi_tree *tree, int level, uint32_t b)
             cone.axis[k] += below[i].axis[k];
         }
     }
-    int found = normalise(cone.axis);
+    int found = lrcsi_length_normalise(cone.axis);
     for (uint32_t i = 0; i < count; i++) {
         double c = fmin(1.0, lrcsi_vec3_dot(cone.axis, below[i].axis)) - CONE_MARGIN;
         double all = -1.0;

@@ -48,22 +48,15 @@ typedef struct smooth_job {
     lrcs_point *mean; /* corner 3 facet + k: the mean normal of its groups, or zero */
 } smooth_job;
 
-/* Scales to length 1, first dividing by the largest component so that nothing overflows. Returns 0
-   if the length is zero. */
+/* Normalises a vector of any finite length: divided by the largest component first, its square
+   neither overflows nor underflows. Returns 0 if the length is zero. */
 static int make_unit(double v[3])
 {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(largest > 0.0)) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && largest > 0.0; k++) {
         v[k] /= largest;
     }
-    double length = lrcsi_length(v);
-    for (int k = 0; k < 3; k++) {
-        v[k] /= length;
-    }
-    return 1;
+    return lrcsi_length_normalise(v);
 }
 
 /* The angle between two unit vectors, rad. It is halved until its 64th part is left, by formulas
@@ -102,9 +95,7 @@ static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t b
 {
     const double *from = placed_corner(job, facet, k);
     const double *to = placed_corner(job, facet, k + by);
-    for (int i = 0; i < 3; i++) {
-        v[i] = to[i] - from[i];
-    }
+    lrcsi_vec3_between(from, to, v);
     return make_unit(v);
 }
 
