@@ -17,7 +17,6 @@
 #include "base/work.h"
 #include "mesh/box.h"
 #include "mesh/convex.h"
-#include "mesh/duplicate.h"
 #include "mesh/topology.h"
 
 /* The mesh to be measured. */
@@ -146,26 +145,45 @@ static void count_edge_uses(const lrcsi_topology *t, lrcs_mesh_report *report)
     }
 }
 
-/* Each facet is compared with the first facet in the same place, the one of lowest index. */
-static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
-                            lrcs_mesh_report *report)
+/* The first facet, of lowest index, on a lowest edge and the point opposite it. */
+typedef struct first_facet {
+    uint32_t edge, forward; /* how it traverses the edge */
+} first_facet;
+
+/* Counts the facets that coincide with one of lower index, and those of them whose winding is
+   opposite to that of the first. Coincident facets are all found at their lowest edge: first[v] is
+   the first facet at the latest edge that has a facet with v opposite it. Which of them the laser
+   sees: scene/coincident.c. */
+static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, uint32_t vertex_count,
+                            lrcs_work *work, lrcs_mesh_report *report)
 {
     size_t mark = work->used;
-    const uint32_t *order = NULL;
-    uint32_t count = 0;
-    int status = lrcsi_duplicate_order(t, m->facet, m->facet_count, work, &order, &count);
-    lrcsi_duplicate_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
-    for (uint32_t i = 0; i < count; i++) {
-        lrcsi_duplicate_key key = lrcsi_duplicate_key_of(t, &m->facet[order[i]]);
-        if (lrcsi_duplicate_place(&key, &first)) {
-            report->duplicate++;
-            report->opposite_pairs += key.odd != first.odd;
-        } else {
-            first = key;
+    first_facet *first = lrcsi_work_take(work, vertex_count, sizeof *first);
+    if (!first) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        first[v].edge = LRCS_NONE;
+    }
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
+        for (uint32_t i = 0; i < t->edge[e].uses; i++) {
+            uint32_t f = use[i].facet;
+            if (lrcsi_topology_lowest_edge(t, f) != e) {
+                continue;
+            }
+            uint32_t k = lrcsi_topology_corner_opposite(t, f, e);
+            first_facet *at = &first[t->weld[m->facet[f].corner[k]]];
+            if (at->edge == e) {
+                report->duplicate++;
+                report->opposite_pairs += at->forward != use[i].forward;
+            } else {
+                *at = (first_facet){e, use[i].forward};
+            }
         }
     }
     work->used = mark;
-    return status;
+    return LRCS_OK;
 }
 
 /* Counts the welded points that facets have as corners, and the degenerate facets, whose corners do
@@ -193,7 +211,7 @@ static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, ui
 size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
 {
     size_t convex = lrcsi_convex_need(vertex_count, facet_count);
-    size_t duplicates = lrcsi_duplicate_need(facet_count);
+    size_t duplicates = lrcsi_work_bytes(vertex_count, sizeof(first_facet));
     size_t points = lrcsi_work_bytes(vertex_count, 1);
     size_t scratch = convex > duplicates ? convex : duplicates;
     return lrcsi_work_add(lrcsi_topology_need(vertex_count, facet_count),
@@ -212,7 +230,7 @@ int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_
         status = count_used_points(&m, &t, vertex_count, work, &made);
     }
     if (status == LRCS_OK) {
-        status = count_duplicates(&m, &t, work, &made);
+        status = count_duplicates(&m, &t, vertex_count, work, &made);
     }
     if (status == LRCS_OK) {
         status =

@@ -57,13 +57,6 @@ static uint32_t facet_across(const lrcsi_topology *t, uint32_t edge, uint32_t fa
     return use[0].facet == facet ? use[1].facet : use[0].facet;
 }
 
-/* The corner of a facet opposite one of its edges. */
-static uint32_t corner_opposite_edge(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
-{
-    const uint32_t *side = t->facet_edge[facet].corner;
-    return side[0] == edge ? 2 : side[1] == edge ? 0 : 1;
-}
-
 /* 1 if the ray to q comes less than pi after the ray to p, turning about v in the sense of facet a
    b c; 0 if the two rays coincide or are opposite; else -1. All in the plane of a, b, c: seen along
    a coordinate axis to which the facet is not parallel. */
@@ -90,11 +83,11 @@ static int edges_are_convex(const convex_mesh *m, unsigned char *crease)
         }
         uint32_t f = use[0].facet;
         uint32_t g = use[1].facet;
-        uint32_t k = corner_opposite_edge(t, f, e);
+        uint32_t k = lrcsi_topology_corner_opposite(t, f, e);
         const double *apex = corner_position(m, f, k);
         const double *from = corner_position(m, f, k + 1);
         const double *to = corner_position(m, f, k + 2);
-        const double *beyond = corner_position(m, g, corner_opposite_edge(t, g, e));
+        const double *beyond = corner_position(m, g, lrcsi_topology_corner_opposite(t, g, e));
         int side = lrcsi_exact_side(apex, from, to, beyond);
         if (side > 0 ||
             (side == 0 && orientation_in_plane(apex, from, to, from, to, beyond) >= 0)) {
@@ -153,8 +146,7 @@ static fan_place fan_next(const convex_mesh *m, fan_place p)
     const lrcsi_topology *t = m->topology;
     uint32_t edge = t->facet_edge[p.facet].corner[(p.corner + 2) % 3];
     uint32_t g = facet_across(t, edge, p.facet);
-    const uint32_t *side = t->facet_edge[g].corner;
-    return (fan_place){g, side[0] == edge ? 0 : side[1] == edge ? 1 : 2};
+    return (fan_place){g, lrcsi_topology_side(t, g, edge)};
 }
 
 /* Case m = 0: only one facet, its second ray excluded, contains the first ray. */

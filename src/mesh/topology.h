@@ -39,6 +39,30 @@ size_t lrcsi_topology_kept(uint32_t vertex_count, uint32_t facet_count);
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology);
 
+/* The side of a facet, 0 to 2, that is one of its edges. */
+static inline uint32_t lrcsi_topology_side(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
+{
+    const uint32_t *side = t->facet_edge[facet].corner;
+    return side[0] == edge ? 0 : side[1] == edge ? 1 : 2;
+}
+
+/* The corner of a facet, 0 to 2, opposite one of its edges. */
+static inline uint32_t lrcsi_topology_corner_opposite(const lrcsi_topology *t, uint32_t facet,
+                                                      uint32_t edge)
+{
+    return (lrcsi_topology_side(t, facet, edge) + 2) % 3;
+}
+
+/* The lowest of a facet's edges; LRCS_NONE if it is degenerate. Two facets are coincident, on the
+   same three points, if and only if they have the same lowest edge and the same point opposite
+   it. */
+static inline uint32_t lrcsi_topology_lowest_edge(const lrcsi_topology *t, uint32_t facet)
+{
+    const uint32_t *side = t->facet_edge[facet].corner;
+    uint32_t low = side[0] < side[1] ? side[0] : side[1];
+    return low < side[2] ? low : side[2];
+}
+
 /* Is mark[facet] this value for any facet of an edge? */
 static inline int lrcsi_topology_edge_has(const lrcsi_topology *t, uint32_t edge,
                                           const uint32_t *mark, uint32_t value)

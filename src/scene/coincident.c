@@ -36,33 +36,25 @@ static int reflects_back(const lrcs_prepared *p, uint32_t facet)
     return lrcsi_prepared_material(p, facet)->two_sided != 0;
 }
 
-static uint32_t lowest_edge(const lrcs_prepared *p, uint32_t facet)
-{
-    const uint32_t *side = p->topology.facet_edge[facet].corner;
-    uint32_t low = side[0] < side[1] ? side[0] : side[1];
-    return low < side[2] ? low : side[2];
-}
-
 /* The welded vertex of a facet that is not on one of its edges. */
 static uint32_t vertex_opposite_edge(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
 {
-    const uint32_t *side = p->topology.facet_edge[facet].corner;
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    return p->topology.weld[corner[side[0] == edge ? 2 : side[1] == edge ? 0 : 1]];
+    uint32_t k = lrcsi_topology_corner_opposite(&p->topology, facet, edge);
+    return p->topology.weld[p->scene->facet[facet].corner[k]];
 }
 
 /* Does any facet share its lowest edge with another one that may be in the same group? */
 static int any_may_coincide(const lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        uint32_t lowest = lowest_edge(p, f);
+        uint32_t lowest = lrcsi_topology_lowest_edge(&p->topology, f);
         if (lowest == LRCS_NONE || p->topology.edge[lowest].uses == 1) {
             continue;
         }
         const lrcsi_edge_use *use = p->topology.use + p->topology.edge[lowest].first_use;
         uint32_t other = use[0].facet == f ? use[1].facet : use[0].facet;
         if (p->topology.edge[lowest].uses > 2 ||
-            (lowest_edge(p, other) == lowest &&
+            (lrcsi_topology_lowest_edge(&p->topology, other) == lowest &&
              vertex_opposite_edge(p, f, lowest) == vertex_opposite_edge(p, other, lowest))) {
             return 1;
         }
@@ -113,7 +105,8 @@ static int groups_make(lrcs_prepared *p, coincident_group *group)
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
         for (uint32_t i = 0; i < t->edge[e].uses && t->edge[e].uses > 1; i++) {
-            if (lowest_edge(p, use[i].facet) != e || !may_coincide(p, use[i].facet)) {
+            if (lrcsi_topology_lowest_edge(&p->topology, use[i].facet) != e ||
+                !may_coincide(p, use[i].facet)) {
                 continue;
             }
             coincident_group *at = &group[vertex_opposite_edge(p, use[i].facet, e)];

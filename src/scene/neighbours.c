@@ -47,8 +47,7 @@ static edge_facets edge_facets_of(const neighbours_job *job, uint32_t edge)
 static void set_neighbour(const neighbours_job *job, lrcsi_neighbours *a, uint32_t facet,
                           uint32_t edge, uint32_t other)
 {
-    const uint32_t *side = job->topology->facet_edge[facet].corner;
-    a->facet[facet].corner[side[0] == edge ? 0 : side[1] == edge ? 1 : 2] = other;
+    a->facet[facet].corner[lrcsi_topology_side(job->topology, facet, edge)] = other;
 }
 
 /* Stores the neighbours at an edge of two pairs of coincident facets: for each facet, the facet of
