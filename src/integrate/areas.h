@@ -42,11 +42,30 @@ static inline lrcsi_visible_area lrcsi_areas_of(const lrcsi_areas *areas, const 
                : nothing;
 }
 
+/* The visible fraction of a facet, from its visible and its projected area. 1 if these are equal,
+   even if both are 0 because the projected area underflows: a facet that is summed at all
+   (lrcsi_areas_is_summed) then counts as entirely visible. There is no division for the many facets
+   that are entirely visible. */
+static inline double lrcsi_areas_fraction(double visible, double projected)
+{
+    return visible == projected ? 1 : visible / projected;
+}
+
 /* May some of a facet be visible? Given: areas of any method but facet. */
 static inline int lrcsi_areas_may_be_visible(const lrcsi_areas *areas, uint32_t facet)
 {
     return lrcsi_areas_answered(areas, facet) ? areas->answer[facet] == LRCSI_QUERY_VISIBLE
                                               : areas->visible[facet].high > 0;
+}
+
+/* Does the sum of Eq. 2 include a facet that faces the laser and reflects towards it? By any
+ * method.
+ */
+static inline int lrcsi_areas_is_summed(const lrcsi_areas *areas, const lrcsi_view *view,
+                                        uint32_t facet)
+{
+    return areas->visible ? lrcsi_areas_may_be_visible(areas, facet)
+                          : lrcsi_view_casts(view, facet);
 }
 
 /* The visible area of a facet that may be visible. Given: areas of any method but facet. */

@@ -205,7 +205,7 @@ static lrcsi_curved curve_from_pieces(const lrcsi_curve_integral *integral, lrcs
                                       lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->single.target;
-    double area_err = 20 * LRCSI_U * target->reach * target->perimeter;
+    double area_err = lrcsi_occlude_corner_err(target);
     lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
     sum.surface.position_err = lrcsi_curve_position_err(integral, target);
     while (lrcsi_occlude_next(o)) {

@@ -9,6 +9,7 @@
 
 #include "base/constant.h"
 #include "base/range.h"
+#include "integrate/areas.h"
 #include "optics/reflect.h"
 
 /* The reflection at tan^2. If the plan forces the evaluation of a term of amplitude 0, it is
@@ -75,12 +76,6 @@ static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidenc
            (diffuse < 1 ? at->diffuse * exp_minus_1_bound(diffuse) : brdf->B);
 }
 
-/* The fraction part / whole; without a division for the many facets that are entirely visible. */
-static double fraction_of(double part, double whole)
-{
-    return part == whole ? 1 : part / whole;
-}
-
 /* The reflectance is the mean over the facet's patch if it represents a part of a curved wall, else
    that of its normal. Rounding: S, 4 pi, two products and the fraction, 8 u; the relative error of
    areas; and the error of f_r cos^2, times the upper bound of the visible area. */
@@ -100,8 +95,8 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
         uncertainty = reflection_uncertainty(&brdf, incidence, &at);
     }
     double four_pi_s = LRCS_FOUR_PI * 0.5 * p->normal[facet].length;
-    double fraction = fraction_of(visible->area, incidence->projected);
-    double fraction_high = fraction_of(visible->high, incidence->projected);
+    double fraction = lrcsi_areas_fraction(visible->area, incidence->projected);
+    double fraction_high = lrcsi_areas_fraction(visible->high, incidence->projected);
     lrcsi_facet_terms terms = {.glint = four_pi_s * at.glint * fraction,
                                .diffuse = four_pi_s * at.diffuse * fraction};
     terms.rounding = (terms.glint + terms.diffuse) * (incidence->error + 8 * LRCSI_U) +

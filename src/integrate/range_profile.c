@@ -226,8 +226,7 @@ static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
     lrcsi_visible_area visible =
         lrcsi_visible_area_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
-        const lrcsi_target *target = &o->single.target;
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->single.piece_err;
+        area_err += lrcsi_occlude_corner_err(&o->single.target) + o->single.piece_err;
     }
     if (run->visible) {
         run->visible[facet] = visible;

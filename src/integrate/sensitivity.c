@@ -16,19 +16,18 @@
 #include "integrate/linear.h"
 #include "integrate/patch.h"
 #include "optics/reflect.h"
-#include "visibility/query.h"
 
-/* The visible fraction of a facet that reflects. */
-static double visible_fraction(const lrcsi_sigma *run, uint32_t facet, double projected)
+/* The visible fraction of a facet that reflects, as the sum of Eq. 2 has it; 0 if the sum does not
+   include the facet. */
+static double visible_fraction(const lrcsi_sigma *run, uint32_t facet,
+                               const lrcsi_incidence *incidence)
 {
-    if (run->answer && run->answer[facet] != LRCSI_QUERY_UNDECIDED) {
-        return run->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment};
+    if (!lrcsi_areas_is_summed(&areas, &run->view, facet)) {
+        return 0;
     }
-    if (!run->visible) {
-        return lrcsi_view_casts(&run->view, facet) ? 1 : 0;
-    }
-    double area = run->visible[facet].area;
-    return area == projected ? 1 : area / projected; /* 1 even if both are 0 */
+    lrcsi_visible visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
+    return lrcsi_areas_fraction(visible.area, incidence->projected);
 }
 
 /* The derivative dg/ds = g 2 u / s^3, from g u. */
@@ -157,7 +156,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
         }
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double fraction = visible_fraction(run, f, incidence.projected);
+        double fraction = visible_fraction(run, f, &incidence);
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
         const double u = incidence.tan2;

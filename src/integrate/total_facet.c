@@ -103,9 +103,8 @@ void lrcsi_total_add_clear(lrcsi_total_run *run, uint32_t facet)
 void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
-    int visible = run->view->facing[facet] != 0 &&
-                  (run->areas->visible ? lrcsi_areas_may_be_visible(run->areas, facet)
-                                       : lrcsi_view_casts(run->view, facet));
+    int visible =
+        run->view->facing[facet] != 0 && lrcsi_areas_is_summed(run->areas, run->view, facet);
     if (reflects && lrcsi_total_in_clear_shape(run, facet)) {
         lrcsi_total_add_clear(run, facet);
     } else if (reflects && visible) {

@@ -36,7 +36,12 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    pieces. The area in which the union of the pieces differs from the visible region is at most
        high - low + 20 u reach perimeter,
    where high and low are those of the returned area, and the second term, with the reach and the
-   perimeter of o->single.target, is due to the rounding of the corners. */
+   perimeter of o->single.target, is due to the rounding of the corners: lrcsi_occlude_corner_err.
+ */
+static inline double lrcsi_occlude_corner_err(const lrcsi_target *target)
+{
+    return 20 * LRCSI_U * target->reach * target->perimeter;
+}
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occlusion *o);
 lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
