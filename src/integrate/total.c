@@ -5,8 +5,8 @@
 
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
    fraction 1e-9 + 2 u per facet, for the rounding of their own sums. The steps of lrcsi_total_make:
-   1. lrcsi_total_add_material, for each material: nearly all facets are summed in blocks, in plain
-      doubles (total_block.c), the others one by one (total_facet.c);
+   1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
+      doubles (total_packet.c), the others one by one (total_facet.c);
    2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
    3. add_tessellation_errors, if shapes are curved: lrcsi_tessellation_error;
    4. total_finish: conversion to square metres, and the rounding of the sums. */

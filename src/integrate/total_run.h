@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the sum of Eq. 2 gives, its state while it is computed, and the functions by which its three
-   files share the work: total.c drives it and adds curved shapes, total_block.c adds facets in
-   blocks, total_facet.c adds single facets. */
+   files share the work: total.c drives it and adds curved shapes, total_packet.c adds facets in
+   packets, total_facet.c adds single facets. */
 #ifndef LRCSI_TOTAL_RUN_H
 #define LRCSI_TOTAL_RUN_H
 
@@ -95,9 +95,10 @@ void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf);
 /* Records the sigma of a facet, if records are asked for. */
 void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
 
-/* --- total_block.c ---------------------------------------------------------------------------- */
+/* --- total_packet.c ----------------------------------------------------------------------------
+ */
 
-/* Adds all facets of a material, in their order, in blocks wherever that is possible. */
+/* Adds all facets of a material, in their order, in packets wherever that is possible. */
 void lrcsi_total_add_material(lrcsi_total_run *run, uint32_t material);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* f_r cos(theta) of a block of facets of one material, in plain doubles, with an a priori bound on
+/* f_r cos(theta) of a packet of facets of one material, in plain doubles, with an a priori bound on
    its error. It is used for nearly every facet of a view, except facets near grazing incidence and
    facets in the bright lobe of a narrow glint: these need tan^2 to more digits than unit vectors
    of doubles provide (reflect.h). */
@@ -11,20 +11,20 @@
 #include "base/constant.h"
 #include "base/elementary.h"
 
-/* The constants of a material for its blocks. */
+/* The constants of a material for its packets. */
 typedef struct lrcsi_lobes {
     double A, B; /* 4 pi times those of the material */
     double inverse_s2;
     double m;
     double cutoff;    /* bound on a term that is set to 0, in units of u */
-    double low, high; /* the range of cosines for which blocks may be used; empty if low >= high */
+    double low, high; /* the range of cosines for which packets may be used; empty if low >= high */
     int glint, diffuse;
 } lrcsi_lobes;
 
 /* Given: the material; whether its glint and its diffuse term are to be evaluated. */
 lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse);
 
-/* Unit normals of the facets of a block, on the side towards the laser. */
+/* Unit normals of the facets of a packet, on the side towards the laser. */
 typedef struct lrcsi_shade_normals {
     double x[3][LRCSI_LANES];
 } lrcsi_shade_normals;

@@ -30,7 +30,7 @@ static void normals_finish(const batch_normals *restrict n, double *restrict x, 
     }
 }
 
-/* For each block: the normals of its facets, then their unit normals and areas. Last, the normals
+/* For each packet: the normals of its facets, then their unit normals and areas. Last, the normals
    of skipped facets, which are in no batch. Where the squares of small components would lose bits
    to underflow, the normal is multiplied by 2^500, exactly. Unused lanes repeat the first. */
 static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)

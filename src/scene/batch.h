@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The facets of a prepared scene as a structure of arrays, sorted by material. Computations over
-   every facet of a view process it in blocks, many facets at once. */
+   every facet of a view process it in packets, many facets at once. */
 #ifndef LRCSI_BATCH_H
 #define LRCSI_BATCH_H
 

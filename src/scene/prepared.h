@@ -44,7 +44,7 @@ typedef struct lrcsi_neighbours {
     uint32_t irregular_count;
 } lrcsi_neighbours;
 
-/* Facets that are not skipped, sorted by material, and by index within one. A block of LRCSI_LANES
+/* Facets that are not skipped, sorted by material, and by index within one. A packet of LRCSI_LANES
    may start at any element: as many elements beyond the last are zero. */
 typedef struct lrcsi_batches {
     uint32_t count;

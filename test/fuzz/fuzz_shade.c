@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A few arbitrary facets of one arbitrary material: what a block gives for each is what
+/* A few arbitrary facets of one arbitrary material: what a packet gives for each is what
    double-double incidence and reflect.h give, within the bounds of both, and sigma of them all is
    their sum. */
 #include "fuzz.h"

@@ -63,9 +63,9 @@ static double off_from(double value, const double reference[2])
     return fabs((value - reference[0]) - reference[1]);
 }
 
-/* Both parts of S cos(theta) times what the block gives, each alone and together, and how many
-   facets blocks serve. */
-static void facets_stay_within_the_error_of_their_block(void **state)
+/* Both parts of S cos(theta) times what the packet gives, each alone and together, and how many
+   facets packets serve. */
+static void facets_stay_within_the_error_of_their_packet(void **state)
 {
     (void)state;
     static lrcsi_shades shades;
@@ -100,7 +100,7 @@ static void facets_stay_within_the_error_of_their_block(void **state)
     assert_true(served > COUNT / 2 && worst > 0.05);
 }
 
-/* Whether a block serves the facet or not. */
+/* Whether a packet serves the facet or not. */
 static void sigma_stays_within_its_bound_at_every_incidence(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void materials_at_the_ends_of_the_range_are_not_served(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(facets_stay_within_the_error_of_their_block),
+        cmocka_unit_test(facets_stay_within_the_error_of_their_packet),
         cmocka_unit_test(sigma_stays_within_its_bound_at_every_incidence),
         cmocka_unit_test(bounds_of_ordinary_materials_are_small),
         cmocka_unit_test(a_lane_holds_the_same_wherever_it_stands),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The sum of Eq. 2 over the facets of one material, in blocks of LRCSI_LANES, in plain doubles
+/* The sum of Eq. 2 over the facets of one material, in packets of LRCSI_LANES, in plain doubles
    (optics/shade.h). select_facets selects the facets that face the laser (lrcsi_view_dot),
-   keep_visible keeps those that are visible, and add_block evaluates them. Facets that cannot be
+   keep_visible keeps those that are visible, and add_packet evaluates them. Facets that cannot be
    evaluated in this way are added one by one (total_facet.c). */
 #include <string.h>
 
@@ -25,17 +25,17 @@ static inline int side_may_be_visible(const lrcsi_total_run *run, uint32_t facet
                                : run->view->prepared->redundant[facet] < limit;
 }
 
-/* The facets of one material. Those that can be evaluated in blocks are collected until there are
-   enough for one block. */
+/* The facets of one material. Those that can be evaluated in packets are collected until there are
+   enough for one packet. */
 typedef struct total_batch {
     lrcsi_lobes lobes;
     int back_reflects;                 /* back sides reflect */
     int back_visible;                  /* back sides may be visible */
     int seen;                          /* a facet that reflects may be visible */
-    uint32_t waiting;                  /* facets collected for the next block */
+    uint32_t waiting;                  /* facets collected for the next packet */
     uint32_t element[2 * LRCSI_LANES]; /* their indices in prepared->batches */
     signed char side[2 * LRCSI_LANES]; /* 1 or, if back sides reflect, -1 for those */
-    lrcsi_shade_normals normals;       /* of the block that is being added */
+    lrcsi_shade_normals normals;       /* of the packet that is being added */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
@@ -43,8 +43,8 @@ typedef struct total_batch {
 /* Fills batch->normals with the unit normals, on the side towards the laser, and `area` with the
    areas of the first `count` facets collected. Unused lanes get the direction to the laser as their
    normal, and area 0. */
-static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_t count,
-                         double area[LRCSI_LANES])
+static void packet_gather(const lrcsi_total_run *run, total_batch *batch, uint32_t count,
+                          double area[LRCSI_LANES])
 {
     lrcsi_shade_normals *normals = &batch->normals;
     const lrcsi_view *view = run->view;
@@ -75,9 +75,9 @@ static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_
 
 /* Replaces the projected areas by the visible ones for facets that have no answer, also their upper
    bounds, and adds the errors due to these areas. */
-static void block_visible(lrcsi_total_run *run, const total_batch *batch, uint32_t count,
-                          const lrcsi_shades *shades, double visible[LRCSI_LANES],
-                          double high[LRCSI_LANES])
+static void packet_visible(lrcsi_total_run *run, const total_batch *batch, uint32_t count,
+                           const lrcsi_shades *shades, double visible[LRCSI_LANES],
+                           double high[LRCSI_LANES])
 {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t facet = run->view->prepared->batches.facet[batch->element[i]];
@@ -94,14 +94,14 @@ static void block_visible(lrcsi_total_run *run, const total_batch *batch, uint32
     }
 }
 
-/* Adds one block by Eq. 2, the first LRCSI_LANES facets collected:
+/* Adds one packet by Eq. 2, the first LRCSI_LANES facets collected:
    1. gathers their normals and areas S;
    2. computes 4 pi f_r cos(theta), with errors;
    3. computes projected areas S cos(theta), and replaces them by visible areas. With method facet,
       facets may be hidden unless cos(theta) is proved to exceed the plan's grazing threshold;
    4. adds the products of 2 and 3 to the sums;
    5. fills records. */
-static void add_block(lrcsi_total_run *run, total_batch *batch)
+static void add_packet(lrcsi_total_run *run, total_batch *batch)
 {
     const lrcsi_view *view = run->view;
     const double threshold = run->plan->grazing_cos;
@@ -113,13 +113,13 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     double error[LRCSI_LANES];
-    block_gather(run, batch, count, area);                                            /* 1 */
+    packet_gather(run, batch, count, area);                                           /* 1 */
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, &batch->normals, &shades); /* 2 */
     for (int i = 0; i < LRCSI_LANES; i++) {                                           /* 3 */
         visible[i] = high[i] = area[i] * shades.cosine[i];
     }
     if (run->areas->visible) {
-        block_visible(run, batch, count, &shades, visible, high);
+        packet_visible(run, batch, count, &shades, visible, high);
     } else if (threshold > 0 && threshold < 1) {
         for (uint32_t i = 0; i < count; i++) {
             double per_area = shades.glint[i] + shades.diffuse[i];
@@ -149,8 +149,8 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
 }
 
 /* Given the indices in the batches of facets that reflect, keeps those that are evaluated in
-   blocks, and returns their number. Facets of clear shapes and facets with curved normals are added
-   here; hidden ones are counted. */
+   packets, and returns their number. Facets of clear shapes and facets with curved normals are
+   added here; hidden ones are counted. */
 static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t count, int side)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
@@ -187,8 +187,9 @@ static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t coun
     return left;
 }
 
-/* Collects the selected facets among the LRCSI_LANES from index `start` on, and adds the block once
-   it is full. The facets reflect from the side that faces the laser: 1, or -1 for their back. */
+/* Collects the selected facets among the LRCSI_LANES from index `start` on, and adds the packet
+   once it is full. The facets reflect from the side that faces the laser: 1, or -1 for their back.
+ */
 static void batch_collect(lrcsi_total_run *run, total_batch *batch, uint32_t start,
                           const uint64_t pick[LRCSI_LANES], int side)
 {
@@ -207,7 +208,7 @@ static void batch_collect(lrcsi_total_run *run, total_batch *batch, uint32_t sta
     batch->waiting += count;
     batch->seen |= count > 0;
     if (batch->waiting >= LRCSI_LANES) {
-        add_block(run, batch);
+        add_packet(run, batch);
     }
 }
 
@@ -249,7 +250,7 @@ static void add_back_areas(lrcsi_total_run *run, total_batch *batch, uint32_t st
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Which of LRCSI_LANES facets are evaluated in blocks, as sign bits: those whose front faces the
+/* Which of LRCSI_LANES facets are evaluated in packets, as sign bits: those whose front faces the
    laser, and those whose back does. */
 typedef struct total_selection {
     uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
@@ -291,9 +292,9 @@ static void select_facets(const lrcsi_total_run *run, const total_batch *batch, 
 }
 
 /* Adds up to LRCSI_LANES facets from index `start` on:
-   1. selects those that are evaluated in blocks, except facets that represent patches of curved
+   1. selects those that are evaluated in packets, except facets that represent patches of curved
       walls;
-   2. collects front sides for a block;
+   2. collects front sides for a packet;
    3. collects back sides too if they reflect; otherwise adds their areas;
    4. adds the others one by one: facets near grazing incidence or in the bright lobe of a narrow
       glint, and those of curved walls; for these also the tessellation error, while run->patches
@@ -335,10 +336,10 @@ static int is_evaluated(int term, double amplitude)
 }
 
 /* Adds all facets of a material, in their order:
-   1. the facets, in blocks or one by one;
-   2. the last block, which may not be full;
-   3. the sums and the errors of the blocks. With method facet and a grazing threshold of 1, nothing
-      is known about what is hidden, and all of the material may be. */
+   1. the facets, in packets or one by one;
+   2. the last packet, which may not be full;
+   3. the sums and the errors of the packets. With method facet and a grazing threshold of 1,
+   nothing is known about what is hidden, and all of the material may be. */
 void lrcsi_total_add_material(lrcsi_total_run *run, uint32_t material)
 {
     const lrcsi_view *view = run->view;
@@ -355,7 +356,7 @@ void lrcsi_total_add_material(lrcsi_total_run *run, uint32_t material)
         add_lanes(run, &batch, start, left < LRCSI_LANES ? left : LRCSI_LANES);
     }
     if (batch.waiting > 0) {
-        add_block(run, &batch);
+        add_packet(run, &batch);
     }
     lrcsi_total_sums *sums = &run->sums;
     lrcsi_sum both = {0, 0};
