@@ -197,7 +197,7 @@ static int emulation_check(const lrcs_prepared *prepared, const lrcs_emulation_o
         (image && image->size != options->resolution)) {
         return LRCS_E_ARGUMENT;
     }
-    return prepared->smooth ? LRCS_E_UNSUPPORTED : LRCS_OK;
+    return prepared->has_curved_normals ? LRCS_E_UNSUPPORTED : LRCS_OK;
 }
 
 size_t lrcs_emulate_need(const lrcs_prepared *prepared, const lrcs_emulation_options *options)

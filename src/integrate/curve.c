@@ -97,11 +97,11 @@ double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
 }
 
 /* The contribution of a facet: its integral times the visible fraction. */
-static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, const lrcsi_cubature *sum,
-                                  double fraction)
+static lrcsi_curve_terms integral_part(const lrcsi_curve_integral *integral,
+                                       const lrcsi_cubature *sum, double fraction)
 {
     double factor = LRCS_FOUR_PI * fraction;
-    lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    lrcsi_curve_terms part = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
     part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
     part.glint_u = factor * lrcsi_sum_value(&sum->glint_u);
@@ -117,8 +117,8 @@ static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, const lr
 /* --- from areas ------------------------------------------------------------------------------- */
 
 /* The contribution of a facet of which only the visible area is known. */
-static lrcsi_curved curve_from_area(const lrcsi_curve_integral *integral,
-                                    const lrcsi_visible *visible)
+static lrcsi_curve_terms curve_from_area(const lrcsi_curve_integral *integral,
+                                         const lrcsi_visible *visible)
 {
     lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
     if (!(visible->high > 0)) {
@@ -135,7 +135,7 @@ static lrcsi_curved curve_from_area(const lrcsi_curve_integral *integral,
         low = high;
     }
     double value = lrcsi_min(high, lrcsi_max(low, visible->area / projected * whole));
-    lrcsi_curved part = integral_part(integral, &sum, whole > 0 ? value / whole : 0);
+    lrcsi_curve_terms part = integral_part(integral, &sum, whole > 0 ? value / whole : 0);
     part.visibility = LRCS_FOUR_PI * (lrcsi_max(high - value, value - low) + sum.unresolved);
     part.rounding = integral_part(integral, &sum, 1).rounding;
     part.error_estimate =
@@ -145,18 +145,17 @@ static lrcsi_curved curve_from_area(const lrcsi_curve_integral *integral,
 }
 
 void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
-                            const lrcsi_visible_area *visible, lrcsi_curved *curved)
+                            const lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
 {
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_progress_report(view->progress, LRCS_PROGRESS_INTEGRATE, f,
-                              view->prepared->scene->facet_count);
+        curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
-            curved[f] = curve_from_area(&integral, &visible[f]);
-            lrcsi_curve_context_add(&context, curved[f].glint + curved[f].diffuse);
+            curve_terms[f] = curve_from_area(&integral, &visible[f]);
+            lrcsi_curve_context_add(&context, curve_terms[f].glint + curve_terms[f].diffuse);
         }
     }
 }
@@ -201,8 +200,8 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 
 /* The contribution of a facet with curved normals, from its visible pieces. Given: o, which has
    opened the facet, and is closed here. */
-static lrcsi_curved curve_from_pieces(const lrcsi_curve_integral *integral, lrcsi_occlusion *o,
-                                      lrcsi_visible *visible)
+static lrcsi_curve_terms curve_from_pieces(const lrcsi_curve_integral *integral, lrcsi_occlusion *o,
+                                           lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->single.target;
     double area_err = lrcsi_occlude_corner_err(target);
@@ -214,7 +213,7 @@ static lrcsi_curved curve_from_pieces(const lrcsi_curve_integral *integral, lrcs
     }
     area_err += o->single.piece_err;
     *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
-    lrcsi_curved part = integral_part(integral, &sum, 1);
+    lrcsi_curve_terms part = integral_part(integral, &sum, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
                                           (visible->high - visible->low + area_err) +
                                       sum.unresolved);
@@ -224,8 +223,8 @@ static lrcsi_curved curve_from_pieces(const lrcsi_curve_integral *integral, lrcs
 /* Clips facets and integrates: all, or, with areas from samples, those with curved normals that are
    partly visible. */
 static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_options *options,
-                      int sampled, lrcs_work *work, lrcsi_visible_area *visible,
-                      lrcsi_curved *curved)
+                      int sampled, lrcs_work *work, lrcsi_visible *visible,
+                      lrcsi_curve_terms *curve_terms)
 {
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
@@ -237,24 +236,24 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
-        curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_progress_report(
-            view->progress, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f, count);
+        curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
+                            count);
         if (applies) {
             lrcsi_curve_integral_make(&context, f, &integral);
         }
         if (!sampled || (partly && applies)) {
             lrcsi_occlude_open(&o, f);
             if (applies && o.undecided) {
-                curved[f] = curve_from_pieces(&integral, &o, &visible[f]);
-                lrcsi_curve_context_add(&context, curved[f].glint + curved[f].diffuse);
+                curve_terms[f] = curve_from_pieces(&integral, &o, &visible[f]);
+                lrcsi_curve_context_add(&context, curve_terms[f].glint + curve_terms[f].diffuse);
                 continue;
             }
             visible[f] = lrcsi_visible_area_proved(view, f, lrcsi_occlude_area(&o));
         }
         if (applies) {
-            curved[f] = curve_from_area(&integral, &visible[f]);
-            lrcsi_curve_context_add(&context, curved[f].glint + curved[f].diffuse);
+            curve_terms[f] = curve_from_area(&integral, &visible[f]);
+            lrcsi_curve_context_add(&context, curve_terms[f].glint + curve_terms[f].diffuse);
         }
     }
     work->used = mark;
@@ -263,14 +262,14 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
 
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                             const lrcsi_curve_options *options, lrcs_work *work,
-                            lrcsi_visible_area *visible, lrcsi_curved *curved)
+                            lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
 {
-    return curve_clip(classification, options, 0, work, visible, curved);
+    return curve_clip(classification, options, 0, work, visible, curve_terms);
 }
 
 int lrcsi_curve_from_samples(lrcsi_classification *classification,
                              const lrcsi_curve_options *options, lrcs_work *work,
-                             lrcsi_visible_area *visible, lrcsi_curved *curved)
+                             lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
 {
-    return curve_clip(classification, options, 1, work, visible, curved);
+    return curve_clip(classification, options, 1, work, visible, curve_terms);
 }

@@ -11,7 +11,7 @@
 #include "visibility/visible.h"
 
 /* What one facet adds to sigma, in scaled units of area. */
-typedef struct lrcsi_curved {
+typedef struct lrcsi_curve_terms {
     double glint, diffuse;
     double visibility, rounding; /* bounds; the first includes the error of spent steps */
     double error_estimate;       /* the estimated error due to a sampled area; 0: none */
@@ -20,7 +20,7 @@ typedef struct lrcsi_curved {
     /* For derivatives only: the integral of the glint times tan^2, and that of the diffuse term
        times log(1 + tan^2). */
     double glint_u, diffuse_log;
-} lrcsi_curved;
+} lrcsi_curve_terms;
 
 typedef struct lrcsi_curve_options {
     const lrcsi_plan *plan; /* which terms of the BRDF are evaluated */
@@ -77,22 +77,23 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 
 /* For facets of which only the visible area is known: the integral over the whole facet, times the
    fraction that is visible.
-   Given: visible[facet_count]. Returned: curved[facet_count], 0 where lrcsi_curve_applies is 0. */
+   Given: visible[facet_count]. Returned: curve_terms[facet_count], 0 where lrcsi_curve_applies is
+   0. */
 void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
-                            const lrcsi_visible_area *visible, lrcsi_curved *curved);
+                            const lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
 
 /* Clips every facet, as lrcsi_occlude_all, and integrates over the visible pieces of those to which
-   lrcsi_curve_applies. Returned: visible[facet_count], curved[facet_count]. Status: as
+   lrcsi_curve_applies. Returned: visible[facet_count], curve_terms[facet_count]. Status: as
    lrcsi_occlude_all. */
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                             const lrcsi_curve_options *options, lrcs_work *work,
-                            lrcsi_visible_area *visible, lrcsi_curved *curved);
+                            lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
 
 /* The same with areas from samples, which give the area but not the region that is visible: only
    facets with curved normals that are partly visible are clipped. Given: visible[facet_count], of
    which the areas of clipped facets are replaced. */
 int lrcsi_curve_from_samples(lrcsi_classification *classification,
                              const lrcsi_curve_options *options, lrcs_work *work,
-                             lrcsi_visible_area *visible, lrcsi_curved *curved);
+                             lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
 
 #endif

@@ -61,7 +61,7 @@ static int preview_tried(const lrcs_run_options *options)
 static int samples_suffice(const lrcsi_view *view, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
-    return options->accept != LRCS_ACCEPT_BOUND && !p->smooth && !p->proximity.reach &&
+    return options->accept != LRCS_ACCEPT_BOUND && !p->has_curved_normals && !p->proximity.reach &&
            view->front + view->back >= PREVIEW_FACETS;
 }
 
@@ -112,7 +112,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear_shapes *cle
     /* There is no proximity band if the options leave back sides out although some may be seen: it
        holds only if they cast shadows, or in solid scenes. */
     plan.proximity_band = p->proximity.reach && (view->backs.cast || p->solid);
-    plan.patches = p->curved;
+    plan.patches = p->has_curved_shapes;
     plan.tolerance = options->tolerance;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
@@ -176,18 +176,20 @@ static lrcs_effect normals_effect(const lrcs_prepared *p)
     }
     switch (p->scene->normals) {
     case LRCS_NORMALS_AUTO:
-        return p->smooth
+        return p->has_curved_normals
                    ? (lrcs_effect){1, "some facets turn too far for the glint of their material"}
                : given ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
                        : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     case LRCS_NORMALS_SMOOTH:
-        return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as requested"}
-               : given   ? (lrcs_effect){0, "all smoothed facets are flat"}
-                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+        return p->has_curved_normals
+                   ? (lrcs_effect){1, "smoothing groups or vertex normals, as requested"}
+               : given ? (lrcs_effect){0, "all smoothed facets are flat"}
+                       : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     default:
-        return p->curved ? (lrcs_effect){0, "facets of models are flat; those of round shapes "
-                                            "represent the true surface"}
-                         : (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+        return p->has_curved_shapes
+                   ? (lrcs_effect){0, "facets of models are flat; those of round shapes "
+                                      "represent the true surface"}
+                   : (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
     }
 }
 
@@ -232,10 +234,10 @@ static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear_shape
     if (clear->count > 0) {
         return (lrcs_effect){1, "nothing hides some curved shapes: these count without facets"};
     }
-    return clear->part ? (lrcs_effect){0, "every curved shape may be hidden in part"}
-           : p->extent ? (lrcs_effect){0, "facets were requested"}
-           : p->curved ? (lrcs_effect){0, "no curved shape has one"}
-                       : (lrcs_effect){0, "no part is a curved shape"};
+    return clear->part            ? (lrcs_effect){0, "every curved shape may be hidden in part"}
+           : p->extent            ? (lrcs_effect){0, "facets were requested"}
+           : p->has_curved_shapes ? (lrcs_effect){0, "no curved shape has one"}
+                                  : (lrcs_effect){0, "no part is a curved shape"};
 }
 
 void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan,

@@ -380,8 +380,8 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(lrcsi_range_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
-    need = lrcsi_work_add(need, prepared->smooth ? lrcsi_cubature_need() : 0);
-    if (prepared->curved) {
+    need = lrcsi_work_add(need, prepared->has_curved_normals ? lrcsi_cubature_need() : 0);
+    if (prepared->has_curved_shapes) {
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -424,7 +424,7 @@ static int bins_number(profile_run *run)
 static int curved_take(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
-    if (p->curved) {
+    if (p->has_curved_shapes) {
         run->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *run->visible);
         int status = run->visible ? LRCS_OK : LRCS_E_MEMORY;
         if (status == LRCS_OK && run->plan.proximity_band) {
@@ -435,7 +435,7 @@ static int curved_take(profile_run *run, lrcsi_classification *classification, l
             return status;
         }
     }
-    if (p->smooth) {
+    if (p->has_curved_normals) {
         run->curve_options =
             (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, NULL, lrcsi_cubature_stack(work), 0};
         if (!run->curve_options.stack) {
@@ -476,7 +476,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
             facet_add_profile(run, facet, &o);
         }
     }
-    if (status != LRCS_OK || !p->curved || !lrcsi_tessellation_known(p, &run->plan)) {
+    if (status != LRCS_OK || !p->has_curved_shapes || !lrcsi_tessellation_known(p, &run->plan)) {
         return status;
     }
     if (run->band) {
@@ -511,7 +511,7 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
             lrcsi_bound_area(
                 p, (sums->bound + sums->tessellation_variation + (glint + diffuse) * adding) *
                        outward),
-            p->smooth ? lrcsi_bound_area(p, sums->estimate * outward) : 0,
+            p->has_curved_normals ? lrcsi_bound_area(p, sums->estimate * outward) : 0,
             ldexp(moment, p->exponent)};
         if (profile->bin[i].variation_m2 < profile->bin[i].bound_m2) {
             profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
@@ -526,8 +526,8 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
     profile->bound_m2 = lrcsi_bound_area(
         p, (run->bins.bound + run->tessellation + (glint + diffuse) * adding) * outward);
     profile->curvature_estimate_m2 =
-        p->smooth ? lrcsi_bound_area(p, run->bins.estimate * outward) : -1;
-    profile->tessellation_known = !p->curved || lrcsi_tessellation_known(p, &run->plan);
+        p->has_curved_normals ? lrcsi_bound_area(p, run->bins.estimate * outward) : -1;
+    profile->tessellation_known = !p->has_curved_shapes || lrcsi_tessellation_known(p, &run->plan);
     profile->range_err_m = ldexp(run->bins.range_err, p->exponent);
 }
 

@@ -165,8 +165,8 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
                                plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
-        if (run->curved && lrcsi_curve_applies(view, f)) { /* curved normals */
-            const lrcsi_curved *c = &run->curved[f];
+        if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
+            const lrcsi_curve_terms *c = &run->curve_terms[f];
             const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
                                             -0.5 * c->diffuse_log};
             response_sum(to, 1, &at);

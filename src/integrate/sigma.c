@@ -39,7 +39,7 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
    not computed with curved normals. */
 static int moments_wanted(const lrcs_prepared *prepared)
 {
-    return prepared->proximity.reach && !prepared->smooth;
+    return prepared->proximity.reach && !prepared->has_curved_normals;
 }
 
 /* 1. Results by facet: areas, moments, integrals over curved normals;
@@ -52,16 +52,17 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area));
     size_t errors =
         options->part_error_m2 ? lrcsi_work_bytes(prepared->scene->part_count, sizeof(double)) : 0;
-    size_t curved =
-        prepared->smooth
-            ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curved)), lrcsi_cubature_need())
-            : 0;
+    size_t curve_terms = prepared->has_curved_normals
+                             ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curve_terms)),
+                                              lrcsi_cubature_need())
+                             : 0;
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
         return lrcsi_work_add(lrcsi_work_add(lrcsi_view_face_need(prepared), errors),
-                              prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
+                              prepared->has_curved_normals ? lrcsi_work_add(areas, curve_terms)
+                                                           : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_work_add(lrcsi_view_need(prepared), errors),
-                                 lrcsi_work_add(areas, curved));
+                                 lrcsi_work_add(areas, curve_terms));
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
     }
@@ -75,8 +76,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     uint32_t size = options->resolution != 0 ? options->resolution : LRCSI_SIGMA_SIZE_MAX;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
-        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_areas_need(prepared, size));
-    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    raster = lrcsi_work_add(raster, prepared->has_curved_normals ? exact : 0);
     if (options->accept != LRCS_ACCEPT_BOUND) {
         size_t preview = lrcsi_preview_need(prepared, size);
         raster = preview > raster ? preview : raster;
@@ -97,16 +98,17 @@ static int run_take(lrcsi_sigma *run)
 {
     const lrcs_prepared *p = run->view.prepared;
     uint32_t facets = p->scene->facet_count;
-    int areas = !run_is_unshadowed(run) || p->smooth;
+    int areas = !run_is_unshadowed(run) || p->has_curved_normals;
     run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
     run->moment_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
-    run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
+    run->curve_terms =
+        p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
+    run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
     return (run->visible || !areas) && ((run->moment_memory && run->corrected) || !moments) &&
-                   ((run->curved && run->stack) || !p->smooth)
+                   ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;
 }
@@ -166,7 +168,7 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
 {
     const lrcsi_outcome *outcome = &run->outcome;
     const lrcsi_total *t = &outcome->total;
-    if (!isfinite(lrcsi_sigma_bound(t) + t->glint + t->diffuse + t->curvature)) {
+    if (!isfinite(lrcsi_sigma_bound(t) + t->glint + t->diffuse + t->cubature_estimate)) {
         return LRCS_E_NUMBER;
     }
     lrcs_result r = {.sigma_m2 = t->glint + t->diffuse,
@@ -175,7 +177,7 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
                      .bound_m2 = lrcsi_sigma_bound(t),
                      .budget = {t->visibility, t->tessellation, t->rounding},
                      .estimate_m2 = outcome->size != 0 ? t->error_estimate : -1,
-                     .curvature_estimate_m2 = run->curved ? t->curvature : -1,
+                     .curvature_estimate_m2 = run->curve_terms ? t->cubature_estimate : -1,
                      .projected_area_m2 = t->projected,
                      .back_side_area_m2 = t->back_side,
                      .back_side_facets = t->back_sides,

@@ -40,12 +40,12 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
 static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int status = run_classify(run, meter);
-    if (status == LRCS_OK && run->curved) {
+    if (status == LRCS_OK && run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
         status = lrcsi_curve_from_pieces(&run->classification, &options, run->work, run->visible,
-                                         run->curved);
+                                         run->curve_terms);
     } else if (status == LRCS_OK) {
-        int sum_only = !run->view.prepared->curved && !lrcsi_sigma_has_proofs(run);
+        int sum_only = !run->view.prepared->has_curved_shapes && !lrcsi_sigma_has_proofs(run);
         status =
             lrcsi_occlude_all(&run->classification, meter, run->work,
                               sum_only ? &run->answer : NULL, run->visible, run->moment_memory);

@@ -28,10 +28,11 @@ uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run)
     int estimated = outcome->size != 0 && !(outcome->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
                     !run->meter.spent && allowed > 0 &&
                     t->error_estimate + fmax(0, t->tessellation) + t->rounding <= allowed;
-    if (lrcsi_sigma_bound(t) <= allowed && t->curvature <= allowed) {
+    if (lrcsi_sigma_bound(t) <= allowed && t->cubature_estimate <= allowed) {
         return 0;
     }
-    if (run->request.options->accept != LRCS_ACCEPT_BOUND && estimated && t->curvature <= allowed) {
+    if (run->request.options->accept != LRCS_ACCEPT_BOUND && estimated &&
+        t->cubature_estimate <= allowed) {
         return LRCS_FLAG_ACCEPTED_BY_ESTIMATE;
     }
     return run->request.options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
@@ -56,8 +57,8 @@ lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
     const lrcsi_areas areas = {run->visible, run->answer, run->moment};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
-    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
-                            &details);
+    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
+                            &run->clear, &details);
 }
 
 /* The areas of method facet. Only facets with curved normals need them in memory; for all others
@@ -65,15 +66,15 @@ lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
 void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
-    for (uint32_t f = 0; run->curved && f < view->prepared->scene->facet_count; f++) {
+    for (uint32_t f = 0; run->curve_terms && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         run->visible[f] = lrcsi_view_casts(view, f)
                               ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
                               : lrcsi_visible_exactly(0);
     }
-    if (run->curved) {
+    if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);
-        lrcsi_curve_from_areas(view, &options, run->visible, run->curved);
+        lrcsi_curve_from_areas(view, &options, run->visible, run->curve_terms);
     }
     run->outcome.total = lrcsi_sigma_total(run, NULL);
 }
@@ -134,12 +135,12 @@ void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
     if (lrcsi_sigma_has_proofs(run)) {
         areas_apply_proofs(run);
     }
-    if (run->curved && sampled) {
+    if (run->curve_terms && sampled) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
         int status = lrcsi_curve_from_samples(&run->classification, &options, run->work,
-                                              run->visible, run->curved);
+                                              run->visible, run->curve_terms);
         if (status != LRCS_OK) {
-            lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curved);
+            lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curve_terms);
             run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
         }
     }

@@ -8,7 +8,7 @@
    1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
       doubles (total_packet.c), the others one by one (total_facet.c);
    2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
-   3. add_tessellation_errors, if shapes are curved: lrcsi_tessellation_error;
+   3. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
    4. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/total.h"
 
@@ -192,12 +192,12 @@ static void total_finish(lrcsi_total_run *run)
     total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
     total->error_estimate = fmin(lrcsi_prepared_area(p, estimate), total->visibility);
-    total->curvature = lrcsi_prepared_area(p, sums->curvature);
+    total->cubature_estimate = lrcsi_prepared_area(p, sums->cubature_estimate);
     total->seen = sums->seen;
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_areas *areas, const lrcsi_curved *curved,
+                             const lrcsi_areas *areas, const lrcsi_curve_terms *curve_terms,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,
                              lrcsi_total_details *details)
 {
@@ -206,7 +206,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     lrcsi_total_run run = {.view = view,
                            .plan = plan,
                            .areas = areas,
-                           .curved = curved,
+                           .curve_terms = curve_terms,
                            .band = band,
                            .clear = clear->count > 0 ? clear : NULL,
                            .details = *details};
@@ -222,7 +222,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (details->records) {
         records_start(&run);
     }
-    int replaced = plan->method != LRCS_METHOD_CLOSED && p->curved;
+    int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
     run.tessellation = replaced && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         lrcsi_total_add_material(&run, i);

@@ -10,13 +10,13 @@
    underflows. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 
-/* Given: the view and its plan; the visible areas (answer NULL if shapes are curved); the results
-   of facets with curved normals, curved[facet_count] (NULL: all are flat); the proximity band
-   (NULL: none was made); the shapes that are evaluated by their closed forms instead of their
-   facets. Returned: the total, and the details asked for. The order of the sum is: materials in
-   their order, the facets of each in theirs; then clear shapes in theirs. */
+/* Given: the view and its plan; the visible areas (answer NULL if there are curved shapes); the
+   results of facets with curved normals, curve_terms[facet_count] (NULL: all are flat); the
+   proximity band (NULL: none was made); the shapes that are evaluated by their closed forms instead
+   of their facets. Returned: the total, and the details asked for. The order of the sum is:
+   materials in their order, the facets of each in theirs; then clear shapes in theirs. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_areas *areas, const lrcsi_curved *curved,
+                             const lrcsi_areas *areas, const lrcsi_curve_terms *curve_terms,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,
                              lrcsi_total_details *details);
 

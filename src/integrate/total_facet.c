@@ -65,15 +65,15 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
     lrcsi_total_note_terms(sums, &brdf);
     lrcsi_sum_add(&sums->projected, visible.area);
     lrcsi_total_count(&run->total, incidence.projected, &visible);
-    if (run->curved && lrcsi_curve_applies(run->view, facet)) {
-        const lrcsi_curved *curved = &run->curved[facet];
-        lrcsi_sum_add(&sums->glint, curved->glint);
-        lrcsi_sum_add(&sums->diffuse, curved->diffuse);
-        sums->visibility += curved->visibility;
-        sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
-        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curved->error_estimate);
-        sums->curvature += curved->estimate;
-        lrcsi_total_record(run, facet, curved->glint, curved->diffuse);
+    if (run->curve_terms && lrcsi_curve_applies(run->view, facet)) {
+        const lrcsi_curve_terms *curve_terms = &run->curve_terms[facet];
+        lrcsi_sum_add(&sums->glint, curve_terms->glint);
+        lrcsi_sum_add(&sums->diffuse, curve_terms->diffuse);
+        sums->visibility += curve_terms->visibility;
+        sums->rounding += curve_terms->rounding + LRCSI_FACET_UNDERFLOW;
+        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curve_terms->error_estimate);
+        sums->cubature_estimate += curve_terms->estimate;
+        lrcsi_total_record(run, facet, curve_terms->glint, curve_terms->diffuse);
         return;
     }
     lrcsi_facet_terms terms =
@@ -162,7 +162,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
     if (lrcsi_total_in_clear_shape(run, facet)) {
         return;
     }
-    if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
+    if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {
         const lrcsi_tessellation_input in = {run->view, run->plan, run->areas->visible,
                                              run->areas->moment, run->band};
         lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
@@ -175,7 +175,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
             add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below));
         }
     } else if (run->band) {
-        run->sums.above += run->band->gain[facet] * run->curved[facet].upper_bound;
-        run->sums.below += run->band->loss[facet] * run->curved[facet].upper_bound;
+        run->sums.above += run->band->gain[facet] * run->curve_terms[facet].upper_bound;
+        run->sums.below += run->band->loss[facet] * run->curve_terms[facet].upper_bound;
     }
 }

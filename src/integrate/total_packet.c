@@ -173,7 +173,7 @@ static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t coun
         left += (uint32_t)side_may_be_visible(run, facet[at], side);
     }
     run->total.hidden += count - left;
-    if (run->curved) {
+    if (run->curve_terms) {
         count = left;
         left = 0;
         for (uint32_t k = 0; k < count; k++) {

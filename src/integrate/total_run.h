@@ -17,7 +17,7 @@ typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
     double error_estimate;                     /* estimated error of the sampled areas */
-    double curvature;                          /* estimated error of facets with curved normals */
+    double cubature_estimate; /* estimated error of the cubature over curved normals */
     double projected, back_side;
     uint32_t back_sides, hidden, partial; /* facets */
     uint32_t seen; /* the bits GLINT and DIFFUSE, if some facet that may be visible has that term */
@@ -38,7 +38,7 @@ typedef struct lrcsi_total_details {
 /* Running sums, scaled. */
 typedef struct lrcsi_total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, rounding, curvature;
+    double visibility, rounding, cubature_estimate;
     double above, below;   /* bounds on how far the true sigma is above, and below, the sum */
     double error_estimate; /* estimated random error: root of the sum of squares */
     double bias;           /* estimated systematic error: sum */
@@ -50,9 +50,9 @@ typedef struct lrcsi_total_run {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     const lrcsi_areas *areas;
-    const lrcsi_curved *curved;       /* NULL: all normals are flat */
-    const lrcsi_proximity_band *band; /* NULL: none was made */
-    const lrcsi_clear_shapes *clear;  /* NULL: no shape is evaluated by its closed form */
+    const lrcsi_curve_terms *curve_terms; /* NULL: all normals are flat */
+    const lrcsi_proximity_band *band;     /* NULL: none was made */
+    const lrcsi_clear *clear;             /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patches patches;

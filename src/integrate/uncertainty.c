@@ -75,7 +75,9 @@ static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty
     for (uint32_t i = 0; i < scene->material_count; i++) {
         nonlinear |= scene->material[i].error.s > 0 || scene->material[i].error.m > 0;
     }
-    return options->draws == 0 || !nonlinear ? 1 : prepared->smooth ? NODES_CURVED : NODES;
+    return options->draws == 0 || !nonlinear ? 1
+           : prepared->has_curved_normals    ? NODES_CURVED
+                                             : NODES;
 }
 
 /* The nodes of one parameter, s or m: `count` values from low to high. The middle one is the
@@ -502,7 +504,7 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
             memory.brdf[i].s = axis_value(&s_axis, k);
             memory.brdf[i].m = axis_value(&m_axis, k);
         }
-        if (prepared->smooth) {
+        if (prepared->has_curved_normals) {
             work->used = start; /* the run of the pose is no longer needed */
             status = run_node(prepared, pose, options, work, &memory, k);
         } else {

@@ -75,7 +75,7 @@ static void find_live(lrcs_prepared *p)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         const lrcs_material *material = lrcsi_prepared_material(p, f);
         const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
-        p->curved |= !material->omitted && (part->reach > 0 || !part->curvature_known);
+        p->has_curved_shapes |= !material->omitted && (part->reach > 0 || !part->curvature_known);
         p->skip[f] = p->topology.degenerate[f] || material->omitted;
         p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
         if (p->skip[f]) {
@@ -88,7 +88,7 @@ static void find_live(lrcs_prepared *p)
         p->glint |= material->brdf.A > 0;
         p->diffuse |= material->brdf.B > 0;
         p->articulated |= part->articulated != 0;
-        p->smooth |= lrcsi_prepared_normals(p, f) != NULL;
+        p->has_curved_normals |= lrcsi_prepared_normals(p, f) != NULL;
     }
 }
 
@@ -231,10 +231,10 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
         }
     }
     p->convex |= p->live == 0;
-    if (status == LRCS_OK && p->curved && !p->convex) {
+    if (status == LRCS_OK && p->has_curved_shapes && !p->convex) {
         status = lrcsi_proximity_make(p, work);
     }
-    if (status == LRCS_OK && p->curved) {
+    if (status == LRCS_OK && p->has_curved_shapes) {
         status = lrcsi_extents_make(p, work);
     }
     return status == LRCS_OK ? lrcsi_meshlets_make(p, work, &p->meshlets) : status;

@@ -162,12 +162,12 @@ struct lrcs_prepared {
                            sides are never seen */
     int two_sided;      /* some live facet is two-sided */
     int glint, diffuse; /* some live facet has A > 0; B > 0 */
-    int curved;         /* some live part was tessellated from a curved shape */
+    int has_curved_shapes; /* some live part was tessellated from a curved shape */
     lrcsi_proximity
         proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
     int articulated;            /* some part has a joint */
-    int smooth;                 /* some live facet has curved normals */
+    int has_curved_normals;     /* some live facet has curved normals */
 };
 
 /* The material of a facet. */

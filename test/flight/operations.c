@@ -138,9 +138,10 @@ static double most_parts(const lrcs_prepared *p)
 {
     double most = 0;
     if (steps != 0) {
-        return p->smooth ? 2 * ((double)steps / 256) + 8.0 * p->scene->facet_count + 300 : 0;
+        return p->has_curved_normals ? 2 * ((double)steps / 256) + 8.0 * p->scene->facet_count + 300
+                                     : 0;
     }
-    for (uint32_t f = 0; f < p->scene->facet_count && p->smooth; f++) {
+    for (uint32_t f = 0; f < p->scene->facet_count && p->has_curved_normals; f++) {
         double triangles = method == LRCS_METHOD_FACET ? 1 : 30 * (8193 + 512 * most_cuts(p, f));
         most += 5 * 32768 + 37 + 6 * triangles;
     }

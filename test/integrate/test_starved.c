@@ -100,7 +100,7 @@ static int call_polygons(lrcs_work *work)
    starve where clipping, which takes less, does not. */
 static int sigma_wanted(size_t wanted, size_t size)
 {
-    int gives_up = options.method == LRCS_METHOD_AUTO && prepared->smooth;
+    int gives_up = options.method == LRCS_METHOD_AUTO && prepared->has_curved_normals;
     return (out.result.flags & LRCS_FLAG_MEMORY_FALLBACK) ? wanted > size
                                                           : wanted <= size || gives_up;
 }

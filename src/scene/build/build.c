@@ -112,11 +112,11 @@ static int count_part(scene_builder *builder, uint32_t i, lrcs_divisions *divisi
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
     size_t scratch; /* the most temporary memory of any part: for a shape's mesh or for normals */
-    int curved;     /* normals are requested, and some model has them */
+    int normals;    /* normals are requested, and some model has them */
 } scene_totals;
 
 /* Does part i get normals from its file? */
-static int is_curved(const scene_builder *builder, uint32_t i)
+static int gives_normals(const scene_builder *builder, uint32_t i)
 {
     return builder->options->normals != LRCS_NORMALS_FLAT && builder->recipe->part[i].file &&
            lrcsi_smooth_given(&builder->models[i]);
@@ -151,9 +151,9 @@ static int count_scene(scene_builder *builder, lrcs_divisions *divisions, scene_
             return status;
         }
         size_t need = recipe->part[i].file ? 0 : lrcs_mesh_need(&counts);
-        if (is_curved(builder, i)) {
+        if (gives_normals(builder, i)) {
             need = lrcsi_smooth_need(&builder->models[i]);
-            totals->curved = 1;
+            totals->normals = 1;
         }
         totals->scratch = need > totals->scratch ? need : totals->scratch;
         totals->vertices += counts.vertices;
@@ -185,7 +185,7 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
-        lrcsi_work_bytes(totals.curved ? (size_t)totals.facets : 0, 3 * sizeof(lrcs_point)),
+        lrcsi_work_bytes(totals.normals ? (size_t)totals.facets : 0, 3 * sizeof(lrcs_point)),
         lrcsi_work_bytes((size_t)totals.materials, sizeof(lrcs_material)),
         lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_part)),
         /* and as build and its parts do: */
@@ -337,7 +337,7 @@ static int add_part(scene_builder *builder, uint32_t i, const lrcs_divisions *di
     part->curvature_known = 1;
     part->smoothed = lrcsi_smooth_given(&builder->models[i]);
     status = add_mesh(builder, &builder->models[i], &source, scene);
-    if (status != LRCS_OK || !is_curved(builder, i)) {
+    if (status != LRCS_OK || !gives_normals(builder, i)) {
         return status;
     }
     status = lrcsi_smooth_run(&builder->models[i], &source.placer, builder->options, work, scene);
@@ -358,7 +358,7 @@ static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
-    if (totals->curved) { /* zeros: facets to which no part gives normals are flat */
+    if (totals->normals) { /* zeros: facets to which no part gives normals are flat */
         scene->corner_normal =
             lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
     }
@@ -366,7 +366,7 @@ static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->part = lrcsi_work_take_zero(work, parts, sizeof *scene->part);
     return scene->vertex && scene->facet && scene->facet_material && scene->facet_part &&
                    scene->facet_smooth && scene->material && scene->part &&
-                   (scene->corner_normal || !totals->curved)
+                   (scene->corner_normal || !totals->normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;
 }
@@ -407,12 +407,12 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
     scene->normals = builder->options->normals;
-    int curved = 0; /* normals are dropped if every facet is flat */
-    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
+    int has_normals = 0; /* they are dropped if every facet is flat */
+    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !has_normals; f++) {
         const double *x = scene->corner_normal[3 * (size_t)f].x;
-        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
+        has_normals = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
     }
-    scene->corner_normal = curved ? scene->corner_normal : NULL;
+    scene->corner_normal = has_normals ? scene->corner_normal : NULL;
     work->used = mark;
     return LRCS_OK;
 }
