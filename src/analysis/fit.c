@@ -161,7 +161,7 @@ typedef struct fit_job {
 
 /* The lowest minimum from all starting points and from the fit so far, with A or B held at 0 if
    `without` names it. */
-static lrcsi_fit_parameters starts_minimize(const fit_job *job, unsigned without)
+static lrcsi_fit_parameters starts_minimize(fit_job *job, unsigned without)
 {
     lrcsi_fit_parameters best = job->full;
     for (uint32_t i = 0; i <= job->starts; i++) {
@@ -356,9 +356,9 @@ static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
 }
 
 /* The residuals, and their root mean square over the kept readings, in the readings' unit. */
-static double points_fill(const fit_job *job, double scale, lrcs_fit_point *point)
+static double points_fill(fit_job *job, double scale, lrcs_fit_point *point)
 {
-    const lrcsi_fit_data *data = &job->data;
+    lrcsi_fit_data *data = &job->data;
     double square = 0.0;
     lrcsi_fit_residuals(data, &job->best);
     for (uint32_t i = 0; i < data->count; i++) {

@@ -31,8 +31,8 @@
 
 /* The term's vector v over the readings at given s and m, made orthogonal to the other term's and
    normalised. Returns 0 if it is zero to within rounding. */
-static int presence_vector(const lrcsi_fit_data *data, int term,
-                           const lrcsi_fit_parameters *parameters, double *v)
+static int presence_vector(lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *parameters,
+                           double *v)
 {
     int other = term == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
     int shape = other + LRCS_FIT_S;
@@ -64,8 +64,7 @@ static int presence_vector(const lrcsi_fit_data *data, int term,
 }
 
 /* The length of the arc, as the sum of chords. */
-static double presence_arc(const lrcsi_fit_data *data, int term,
-                           const lrcsi_fit_parameters *without)
+static double presence_arc(lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without)
 {
     int shape = term + LRCS_FIT_S;
     double *v = data->residual;
@@ -91,7 +90,7 @@ static double presence_arc(const lrcsi_fit_data *data, int term,
     return arc;
 }
 
-int lrcsi_fit_presence(const lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without,
+int lrcsi_fit_presence(lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known)
 {
     double fall = lrcsi_max(0.0, without->square - square);

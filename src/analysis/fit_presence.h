@@ -10,7 +10,7 @@
    that term is 0; square, the sum of squares of the best fit with it; kept, the number of readings
    with a weight above 0; known, 1 if the weights are the inverses of the errors themselves, 0 if
    only up to a factor. Uses column[], residual[] and spare[]. */
-int lrcsi_fit_presence(const lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without,
+int lrcsi_fit_presence(lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known);
 
 #endif

@@ -47,7 +47,7 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
     }
 }
 
-lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+lrcsi_fit_spread lrcsi_fit_spread_make(lrcsi_fit_data *data, unsigned fixed,
                                        const lrcsi_fit_parameters *best, double noise)
 {
     const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A],
@@ -84,7 +84,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
 /* ---- by profile ---- */
 
 typedef struct profile_walk {
-    const lrcsi_fit_data *data;
+    lrcsi_fit_data *data;
     int parameter;
     double rise;
     const lrcsi_fit_parameters *best, *full;
@@ -94,7 +94,7 @@ typedef struct profile_walk {
 
 /* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest
    becomes the lower of this minimum and *lowest. */
-static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
+static void walk_minimize(profile_walk *walk, double x, const lrcsi_fit_parameters *from,
                           lrcsi_fit_parameters *lowest)
 {
     lrcsi_fit_parameters parameters = *from;
@@ -106,7 +106,7 @@ static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_pa
 /* The best minimum over several shapes of a term, with the profiled parameter at x: a glint may lie
    between readings or be wide, and a maximum may separate the two. A and m use shapes of the glint,
    B and s those of the diffuse term. */
-static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
+static lrcsi_fit_parameters walk_shape(profile_walk *walk, double x)
 {
     int p = walk->parameter;
     int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
@@ -195,7 +195,7 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
     return direction < 0 && end == 0.0 ? 0.0 : direction * HUGE_VAL;
 }
 
-int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
+int lrcsi_fit_profile(lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
                       const lrcsi_fit_parameters *best, lrcsi_fit_parameters *full,
                       double limit[LRCS_FIT_PARAMETERS][2])
 {

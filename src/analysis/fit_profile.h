@@ -13,7 +13,7 @@ typedef struct lrcsi_fit_spread {
     double error[LRCS_FIT_PARAMETERS];
     double correlation[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
 } lrcsi_fit_spread;
-lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+lrcsi_fit_spread lrcsi_fit_spread_make(lrcsi_fit_data *data, unsigned fixed,
                                        const lrcsi_fit_parameters *best, double noise);
 
 /* Profile limits: the values of each coordinate at which the sum of squares, minimized over the
@@ -24,7 +24,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
    anywhere in the search range (for A, B and log(1 + m) the range ends at 0 below, and 0 is
    returned).
    Status: 1; or 0 if a sum below `full` was found: *full is then that parameter vector. */
-int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
+int lrcsi_fit_profile(lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
                       const lrcsi_fit_parameters *best, lrcsi_fit_parameters *full,
                       double limit[LRCS_FIT_PARAMETERS][2]);
 

@@ -61,7 +61,7 @@ static double value_ranked(double *value, uint32_t count, uint32_t rank)
     return value[rank];
 }
 
-void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_parameters *parameters)
+void lrcsi_fit_noise(lrcsi_fit_data *data, int noise, const lrcsi_fit_parameters *parameters)
 {
     double largest = 0.0;
     if (noise != LRCS_FIT_RELATIVE) {
@@ -79,7 +79,7 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_para
 
 /* Computes |y - f| * inverse for each reading, and the sum. Returns the size below which such a
    value may be due to rounding alone. */
-static double deviations_make(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
+static double deviations_make(lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
                               double *deviation, double *sum)
 {
     double size = 0.0;
@@ -103,7 +103,7 @@ static double deviations_scale(double *deviation, uint32_t count, double roundin
     return lrcsi_max(ROBUST_NORMAL * few * median, rounding);
 }
 
-double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
+double lrcsi_fit_huber(lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
 {
     double sum = 0.0;
     for (int round = 0; round < ROBUST_ROUNDS; round++) {
@@ -121,7 +121,7 @@ double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_paramete
     return sum;
 }
 
-int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
+int lrcsi_fit_trim(lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
     double sum = 0.0;
     int changed = 0;

@@ -42,7 +42,7 @@ static double node_sum(const lrcsi_fit_data *data)
 
 /* Weights readings and columns by the inverse of the residuals, each taken as at least SEARCH_FLOOR
    of their mean. */
-static void node_weigh(const lrcsi_fit_data *data, double mean)
+static void node_weigh(lrcsi_fit_data *data, double mean)
 {
     double floor = lrcsi_max(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
@@ -55,7 +55,7 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 }
 
 /* The least sum of absolute residuals for the s and m of a node. */
-static double node_minimize(const lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
+static double node_minimize(lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
 {
     const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
     lrcsi_fit_parameters parameters = *node;
@@ -105,7 +105,7 @@ static uint32_t start_enter(lrcsi_fit_parameters start[LRCSI_FIT_STARTS], uint32
     return count;
 }
 
-uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
+uint32_t lrcsi_fit_search(lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
 {
     double sum[SEARCH_S_STEPS][SEARCH_M_STEPS];
     uint32_t count = 0;

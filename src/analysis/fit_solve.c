@@ -32,7 +32,7 @@
 
 /* ---- columns, residuals and sums ---- */
 
-void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
+void lrcsi_fit_columns(lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
     double s = exp(parameters->at[LRCS_FIT_S]);
     double w_m = exp(parameters->at[LRCS_FIT_M]);
@@ -51,7 +51,7 @@ void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *p
     }
 }
 
-void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
+void lrcsi_fit_residuals(lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters)
 {
     double s = exp(parameters->at[LRCS_FIT_S]);
     double half_m = 0.5 * expm1(parameters->at[LRCS_FIT_M]);
@@ -83,7 +83,7 @@ static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *n
 }
 
 /* The gradient and the sum of squares, from the residuals themselves, which avoids cancellation. */
-static void gradient_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
+static void gradient_fill(lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
                           lrcsi_fit_normal *normal)
 {
     double sum[LRCS_FIT_PARAMETERS] = {0.0};
@@ -140,8 +140,8 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     return alone[0] > alone[1] ? 1u : 2u;
 }
 
-void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
-                          lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal)
+void lrcsi_fit_amplitudes(lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
+                          lrcsi_fit_normal *normal)
 {
     unsigned free = 3u & ~fixed;
     int order = fixed >> LRCS_FIT_S == 3u ? 2 : LRCS_FIT_PARAMETERS;
@@ -162,8 +162,8 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
     }
 }
 
-void lrcsi_fit_evaluate(const lrcsi_fit_data *data, unsigned fixed,
-                        lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal)
+void lrcsi_fit_evaluate(lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
+                        lrcsi_fit_normal *normal)
 {
     lrcsi_fit_columns(data, parameters);
     lrcsi_fit_amplitudes(data, fixed, parameters, normal);
@@ -237,8 +237,7 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
     return shape->moves[0] || shape->moves[1];
 }
 
-void lrcsi_fit_minimize(const lrcsi_fit_data *data, unsigned fixed,
-                        lrcsi_fit_parameters *parameters)
+void lrcsi_fit_minimize(lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters)
 {
     lrcsi_fit_normal normal;
     double damping = 1e-3;
