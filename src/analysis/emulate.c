@@ -55,7 +55,7 @@ typedef struct gpu_shade {
 static gpu_shade shade_make(const lrcsi_gpu *gpu, uint32_t facet)
 {
     int single = gpu->single;
-    const lrcsi_view *view = gpu->view;
+    const lrcsi_view *view = &gpu->view;
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, facet);
     const lrcs_brdf *brdf = &material->brdf;
     const lrcsi_normal *normal = &view->prepared->normal[facet];
@@ -128,13 +128,13 @@ static double pair_value(const pair_sum *sum, int single)
 /* The area of a pixel in square metres, times x. */
 static double pixels_area(const lrcsi_gpu *gpu, double x)
 {
-    double pixel = gpu->view->side / gpu->size;
-    return lrcsi_prepared_area(gpu->view->prepared, x * pixel * pixel);
+    double pixel = gpu->view.side / gpu->size;
+    return lrcsi_prepared_area(gpu->view.prepared, x * pixel * pixel);
 }
 
 static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_facet_record *records)
 {
-    const lrcs_prepared *p = gpu->view->prepared;
+    const lrcs_prepared *p = gpu->view.prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         records[f] = (lrcs_facet_record){.area_m2 = 0};
         if (!p->skip[f]) {
@@ -239,7 +239,7 @@ int lrcs_emulate_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
             records_fill(&gpu, shade, records);
         }
         if (image) {
-            lrcsi_image_fill(&view, gpu.owner, image);
+            lrcsi_image_fill(&gpu.view, gpu.owner, image);
         }
     }
     work->used = mark;

@@ -38,7 +38,7 @@ typedef struct clip_matrix {
    origin of views. */
 static clip_matrix clip_make(const lrcsi_gpu *gpu)
 {
-    const lrcsi_view *view = gpu->view;
+    const lrcsi_view *view = &gpu->view;
     const lrcs_prepared *p = view->prepared;
     clip_matrix clip = {.unit = ldexp(1, -ilogb(p->radius))};
     double low = HUGE_VAL; /* depths */
@@ -78,7 +78,7 @@ static double window_coordinate(int single, const double *rotation, double trans
 
 static lrcsi_gpu_vertex gpu_vertex(const lrcsi_gpu *gpu, const clip_matrix *clip, uint32_t i)
 {
-    const lrcs_prepared *prepared = gpu->view->prepared;
+    const lrcs_prepared *prepared = gpu->view.prepared;
     lrcsi_gpu_vertex vertex;
     double p[3];
     for (int k = 0; k < 3; k++) {
@@ -154,7 +154,7 @@ static void facet_extent(const lrcsi_gpu *gpu, int64_t a, int64_t b, int64_t c, 
    area. */
 static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
 {
-    const uint32_t *corner = gpu->view->prepared->scene->facet[facet].corner;
+    const uint32_t *corner = gpu->view.prepared->scene->facet[facet].corner;
     const lrcsi_gpu_vertex *a = &gpu->vertex[corner[0]];
     const lrcsi_gpu_vertex *b = &gpu->vertex[corner[1]];
     const lrcsi_gpu_vertex *c = &gpu->vertex[corner[2]];
@@ -248,19 +248,19 @@ size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
     return lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
 }
 
-int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
+int lrcsi_gpu_make(const lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
                    lrcsi_gpu *gpu)
 {
     size_t mark = work->used;
-    lrcsi_gpu g = {.view = view, .size = options->resolution};
+    lrcsi_gpu g = {.view = *view, .size = options->resolution};
     g.single = options->precision == LRCS_PRECISION_FLOAT32;
     g.steps = options->depth_bits < 32 ? ldexp(1, (int)options->depth_bits) - 1 : 0;
     g.short_depth = options->depth_bits == 32;
     double wider = WINDOW_MIN * view->prepared->radius - view->side;
     if (wider > 0) { /* a needle that is seen along its axis */
-        view->low[0] -= 0.5 * wider;
-        view->low[1] -= 0.5 * wider;
-        view->side += wider;
+        g.view.low[0] -= 0.5 * wider;
+        g.view.low[1] -= 0.5 * wider;
+        g.view.side += wider;
     }
     const lrcs_prepared *p = view->prepared;
     size_t pixels = lrcsi_work_square(g.size);

@@ -17,7 +17,7 @@ typedef struct lrcsi_gpu_vertex {
 } lrcsi_gpu_vertex;
 
 typedef struct lrcsi_gpu {
-    const lrcsi_view *view;
+    lrcsi_view view; /* as given, but for its window: the one that is drawn */
     uint32_t size;
     int single;      /* 1 if arithmetic is in float */
     double steps;    /* steps of fixed-point depth, 2^bits - 1; 0 for floating point */
@@ -29,9 +29,9 @@ typedef struct lrcsi_gpu {
 
 size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Draws a view; its window is enlarged if it is narrower than 2^-100 of the scene's reach. Status:
+/* Draws a view; a window that is narrower than 2^-100 of the scene's radius is enlarged. Status:
    LRCS_OK; LRCS_E_MEMORY. The buffers stay in the work area. */
-int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
+int lrcsi_gpu_make(const lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
                    lrcsi_gpu *gpu);
 
 #endif
