@@ -202,6 +202,8 @@ int lrcsi_fit_profile(lrcsi_fit_data *data, const lrcsi_fit_spread *spread, doub
     lrcsi_fit_parameters low = *full;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         profile_walk walk = {data, p, rise, best, full, *best, low};
+        /* The first stride: about where the limit is expected, at most half a unit of a logarithm;
+           strides double until the limit is passed. */
         double stride_max = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
         double stride = lrcsi_min(2.0 * spread->error[p], stride_max);
         stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;

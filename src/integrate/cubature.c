@@ -162,6 +162,7 @@ static double accepted_error(const lrcsi_cubature *sum)
    1. whether the normals turn little enough for the glint and for the diffuse term;
    2. if not, whether the terms are negligible on the cell, by their proved upper bound;
    3. the estimated error of the rule, from the turn relative to the widths of the terms.
+   The limits and p are choices, on which only work and estimate depend.
    weight_max: the largest magnitude of the caller's linear function; negative: there is none. */
 static void cell_trust(const lrcsi_cubature *sum, double weight_max, lrcsi_cubature_cell *cell)
 {

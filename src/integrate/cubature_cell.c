@@ -21,14 +21,6 @@ static void cell_mean(const lrcsi_cubature_cell *cell, double n[3])
     }
 }
 
-/* Finds the angle between the mean normal and the laser. */
-static void cell_measure(lrcsi_cubature_cell *cell)
-{
-    double n[3];
-    cell_mean(cell, n);
-    cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
-}
-
 double lrcsi_cubature_cell_area(const lrcsi_cubature_cell *cell)
 {
     double area = 0;
@@ -114,7 +106,9 @@ void lrcsi_cubature_cell_finish(lrcsi_cubature_cell *cell)
         cell->at[i][0] -= cell->at[0][0];
         cell->at[i][1] -= cell->at[0][1];
     }
-    cell_measure(cell);
+    double n[3];
+    cell_mean(cell, n);
+    cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
 }
 
 /* The chord between the two unit normals at corners that are farthest apart, which is the direction

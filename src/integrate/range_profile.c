@@ -371,8 +371,9 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     if (!(bin_m > 0)) {
         return 0;
     }
+    /* The depth of the scene in any pose: the diagonal of its box is at most 2 sqrt(3) radius. */
     double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
-                   2 * max_reach(prepared); /* of the scene, in any pose */
+                   2 * max_reach(prepared);
     double bins_max = depth / bin_m + 4;
     size_t bins =
         bins_max < LRCS_PROFILE_BINS ? (size_t)bins_max + 1 : (size_t)LRCS_PROFILE_BINS + 4;

@@ -45,7 +45,8 @@ static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrc
 }
 
 /* What the slab may hide is at most its area times the largest value of F. The glint
-   (1 + u)^2 exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. */
+   (1 + u)^2 exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. The factor 1.000001 covers the
+   rounding of these products. */
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab)
 {

@@ -84,9 +84,16 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     return status;
 }
 
-/* The size of the next raster. With the size N the visibility bound falls as 1/N, and the estimated
-   error as N^-1.33 or faster on most models. Because the estimate of a coarse raster is rough, it
-   increases the size to at most four times. */
+/* A raster is this many times as large as the one before, at least; with an estimate, at most. */
+#define GROWTH_MIN 1.5
+#define GROWTH_MAX 4.0
+/* A size that is to meet the tolerance by its bound is chosen larger by this factor, because the
+   next bound is known only about. */
+#define BOUND_MARGIN 1.2
+
+/* The size of the next raster, a multiple of 64 pixels. With the size N the visibility bound falls
+   as 1/N, and the estimated error as N^(-4/3) or faster on most models. These are choices that
+   affect only the time: each raster is judged by its own bound or estimate. */
 static uint32_t next_size(const lrcsi_sigma *run)
 {
     const lrcsi_total *total = &run->outcome.total;
@@ -95,9 +102,9 @@ static uint32_t next_size(const lrcsi_sigma *run)
     double allowed = run->request.options->tolerance * sigma - others; /* for visibility */
     double ratio = sqrt(total->error_estimate / allowed);
     double times = run->request.options->accept == LRCS_ACCEPT_BOUND
-                       ? 1.2 * total->visibility / allowed
-                       : fmin(ratio * sqrt(ratio), 4);
-    double size = run->outcome.size * fmax(1.5, times);
+                       ? BOUND_MARGIN * total->visibility / allowed
+                       : fmin(ratio * sqrt(ratio), GROWTH_MAX);
+    double size = run->outcome.size * fmax(GROWTH_MIN, times);
     if (!(allowed > 0) || !(size < LRCSI_SIGMA_SIZE_MAX)) {
         return LRCSI_SIGMA_SIZE_MAX;
     }

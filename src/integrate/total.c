@@ -4,7 +4,8 @@
        4 pi f_r cos(theta) a = 4 pi S f (a / (S cos(theta))),  f = f_r cos^2(theta).
 
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
-   fraction 1e-9 + 2 u per facet, for the rounding of their own sums. The steps of lrcsi_total_make:
+   fraction 1e-9 + 2 u per facet, for their own rounding: 2 u per facet for the sums, and far more
+   than the few operations on each term need. The steps of lrcsi_total_make:
    1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
       doubles (total_packet.c), the others one by one (total_facet.c);
    2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;

@@ -132,6 +132,10 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
     return bits;
 }
 
+/* Pivots and the rest of their rows below these count as 0 (correlation_fits). */
+#define CORRELATION_PIVOT 1e-7
+#define CORRELATION_REST  1e-3
+
 /* The matrix of correlations is positive semidefinite if and only if elimination meets no negative
    pivot; a pivot of 0 is accepted if the rest of its row is 0. Rounded correlations of nearly
    dependent parameters give such pivots to 1e-7, and rows to the root of that. */
@@ -141,12 +145,12 @@ static int correlation_fits(const double correlation[6])
     double a[4][4] = {
         {1, c[0], c[1], c[2]}, {c[0], 1, c[3], c[4]}, {c[1], c[3], 1, c[5]}, {c[2], c[4], c[5], 1}};
     for (int k = 0; k < 4; k++) {
-        if (a[k][k] < -1e-7) {
+        if (a[k][k] < -CORRELATION_PIVOT) {
             return 0;
         }
         for (int i = k + 1; i < 4; i++) {
-            double factor = a[k][k] > 1e-7 ? a[i][k] / a[k][k] : 0.0;
-            if (!(a[k][k] > 1e-7) && fabs(a[i][k]) > 1e-3) {
+            double factor = a[k][k] > CORRELATION_PIVOT ? a[i][k] / a[k][k] : 0.0;
+            if (!(a[k][k] > CORRELATION_PIVOT) && fabs(a[i][k]) > CORRELATION_REST) {
                 return 0;
             }
             for (int j = k + 1; j < 4; j++) {

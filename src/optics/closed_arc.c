@@ -15,10 +15,10 @@
    integral, in which an algebraic end is still summed to 1e-4.
    A left end with a square root (`left_root`): the last panel [0, h] is summed in x, x^2 = d. There
    the integrand is analytic in x inside the ellipse that reaches to rho = 5.8, |d| < 4 h, since no
-   other singularity is nearer than h / 0.15 (`left_smooth`). From 0 to h F falls by at most a
-   factor e. tan^2 and -log(cos) have positive Taylor coefficients and grow by a factor below 40
-   from h to 4 h; so inside the ellipse F changes by at most a factor exp(40), and the error is
-   exp(40) rho^(-48), about 1e-19.
+   other singularity is nearer than h / 0.15 (CAP_SMOOTH_LEFT, closed_cap.c). From 0 to h F falls by
+   at most a factor e. tan^2 and -log(cos) have positive Taylor coefficients and grow by a factor
+   below 40 from h to 4 h; so inside the ellipse F changes by at most a factor exp(40), and the
+   error is exp(40) rho^(-48), about 1e-19.
 
    Rounding. Values are positive, and their sums compensated. q is accurate to 4 units, which the
    exponent E of exp(-E) multiplies by at most 4 E; E is below 3 on average where F is not

@@ -31,6 +31,12 @@
 /* The longest panel, in y sqrt(-kappa), for one Gauss rule. */
 #define CAP_PANEL_LENGTH 3.0
 
+/* lrcsi_arc.left_smooth and right_smooth as fractions of the distance of the nearest singularity
+   beyond that end. From the first, closed_arc.c derives how far the integrand is analytic about a
+   square root; at the other end it falls, and the ellipse may be flatter. */
+#define CAP_SMOOTH_LEFT  0.15
+#define CAP_SMOOTH_RIGHT 0.25
+
 /* sigma = 4 pi^2 R^2 A E + 8 pi^2 R^2 B / (m + 3), E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s): the
    integrals of F over a hemisphere of normals. */
 lrcsi_term_integrals lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
@@ -232,7 +238,7 @@ static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_lase
         cap->sin_end = cap->sin_start;
         cap->cos_end = cap->cos_start;
         arc.length = arc.left_smooth = cap->start;
-        arc.right_smooth = 0.25 * fmin(cap->cos_start, arc.weight_scale);
+        arc.right_smooth = CAP_SMOOTH_RIGHT * fmin(cap->cos_start, arc.weight_scale);
         cap_add_interval(brdf, body, &arc, zero, &sum);
     }
     cap->full_circle = 0;
@@ -244,7 +250,7 @@ static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_lase
         arc.length = atan2(cap->cos_start, cap->sin_start); /* pi/2 - start */
     }
     arc.left_root = 1;
-    arc.left_smooth = 0.15 * fmin(fmin(cap->start, arc.length), arc.weight_scale);
+    arc.left_smooth = CAP_SMOOTH_LEFT * fmin(fmin(cap->start, arc.length), arc.weight_scale);
     cap_add_interval(brdf, body, &arc, start, &sum);
     return sum;
 }

@@ -12,7 +12,9 @@
      set of aspects, relative to the wall's own sigma there or its mean over attitudes, whichever is
      larger.
    That ratio falls as 1 / around^2, and the smallest `around` that brings it to the tolerance is
-   found by guesses for that law and by bisection. */
+   found by guesses for that law and by bisection.
+   The constants of the rule and of the sample are choices: they decide how many facets there are,
+   and no bound depends on them. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -22,7 +24,9 @@
 #include "optics/reflect.h"
 
 #define AROUND_MIN   8u
-#define DIVIDE_NODES 48
+#define DIVIDE_NODES 48  /* of the midpoint rule */
+#define GLINT_WIDTHS 4.0 /* the glint is taken to extend over so many of its widths */
+#define STEP_MAX     0.2 /* rad, the largest step between aspects sampled near the glint or the rim */
 /* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
 #define DIVIDE_AIM    0.8
 #define DIVIDE_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */
@@ -61,11 +65,11 @@ static double midpoint_node(int k, double near, double end, double *weight)
     return from + ((k % half) + 0.5) * *weight;
 }
 
-/* The extent of the glint: a few of its widths, or of the facets' turn if that is wider. */
+/* The extent of the glint: GLINT_WIDTHS times its width, or the facets' turn if that is wider. */
 static double glint_extent(const divided_wall *wall, double end)
 {
     double width = wall->brdf->A > 0.0 ? wall->brdf->s : 1.0;
-    return fmin(4.0 * fmax(width, wall->curvature.turn), 0.5 * end);
+    return fmin(GLINT_WIDTHS * fmax(width, wall->curvature.turn), 0.5 * end);
 }
 
 /* Mean over all normals of a sphere. */
@@ -73,7 +77,8 @@ static wall_value mean_over_sphere(const divided_wall *wall)
 {
     wall_value sum = {0.0, 0.0};
     double end = fmin(0.5 * LRCS_PI + wall->curvature.turn, LRCS_PI);
-    double narrow = fmin(4.0 * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
+    double narrow =
+        fmin(GLINT_WIDTHS * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
     for (int k = 0; k < DIVIDE_NODES; k++) {
         double weight = 0.0;
         double theta = midpoint_node(k, glint_extent(wall, end), end, &weight);
@@ -118,7 +123,7 @@ static double straight_wall_error(const divided_wall *wall, const lrcs_shape *sh
                                                : atan2(shape->radius, shape->length);
     double mean = mean_over_sphere(wall).sigma;
     double glint = 0.5 * LRCS_PI - psi;
-    double step = fmin(wall->brdf->s, 0.2);
+    double step = fmin(wall->brdf->s, STEP_MAX);
     double worst = 0.0;
     for (int k = 0; k < 21; k++) {
         double alpha = k < 13 ? k * LRCS_PI / 12.0 : glint + (k - 16) * 0.5 * step;
@@ -145,7 +150,7 @@ static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
 {
     double mean = mean_over_sphere(wall).sigma;
     double rim = rim_angle(shape);
-    double step = fmin(wall->brdf->s, 0.2);
+    double step = fmin(wall->brdf->s, STEP_MAX);
     double worst = 0.0;
     for (int i = 0; i < 8; i++) {
         double alpha = fmax(0.0, i < 4 ? 0.25 * i * rim : rim + (i - 6) * step);
@@ -248,7 +253,7 @@ static uint32_t least_around(const lrcs_shape *shape, const lrcs_brdf *brdf, dou
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
 static uint32_t disc_around(double tolerance, uint32_t around_max)
 {
-    double corners = LRCS_PI * sqrt(0.2566 / tolerance);
+    double corners = LRCS_PI * sqrt(0.2566 / tolerance); /* 4 / (9 sqrt 3), rounded */
     if (!(corners < around_max)) {
         return around_max;
     }

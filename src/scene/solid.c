@@ -8,6 +8,7 @@
 #include "base/constant.h"
 #include "base/disjoint.h"
 #include "base/exact.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/convex.h"
 
@@ -111,11 +112,9 @@ static double corner_height(const lrcs_prepared *p, uint32_t facet, uint32_t oth
     double highest = -HUGE_VAL;
     for (int corner = 0; corner < 3; corner++) {
         const double *x = lrcsi_prepared_corner(p, other, corner);
-        double height = 0;
-        for (int k = 0; k < 3; k++) {
-            height += n->high[k] * (x[k] - a[k]);
-        }
-        highest = fmax(highest, height / n->length);
+        double from_a[3];
+        lrcsi_vec3_between(a, x, from_a);
+        highest = fmax(highest, lrcsi_vec3_dot(n->high, from_a) / n->length);
     }
     return highest;
 }
@@ -130,8 +129,9 @@ static void measure_concavity(const lrcs_prepared *p, double *concavity, double 
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const double *a = p->vertex[t->edge[e].low].x;
         const double *b = p->vertex[t->edge[e].high].x;
-        double length = sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
-                             (b[2] - a[2]) * (b[2] - a[2]));
+        double along[3];
+        lrcsi_vec3_between(a, b, along);
+        double length = sqrt(lrcsi_vec3_dot(along, along));
         const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
         for (uint32_t i = 0; i < t->edge[e].uses; i++) {
             *altitude = fmin(*altitude, p->normal[use[i].facet].length / length);
@@ -147,6 +147,11 @@ static double vertex_error(const lrcs_prepared *p, const lrcs_part *part)
     return ldexp(part->position_err, -p->exponent) + 4 * LRCSI_U;
 }
 
+/* The argument at lrcsi_convex_grazing supposes that vertex errors are small compared with the
+   body. A body that is not this many times as thick as its vertex errors is not proved convex: far
+   more than the argument needs. */
+#define THICK_MIN 1e6
+
 int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
 {
     uint32_t index = only_part(p);
@@ -155,7 +160,7 @@ int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
     }
     const lrcs_part *part = &p->scene->part[index];
     int flat = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
-    int thick = ldexp(part->min_extent, -p->exponent) > 1e6 * vertex_error(p, part);
+    int thick = ldexp(part->min_extent, -p->exponent) > THICK_MIN * vertex_error(p, part);
     int convex = part->convex_patch && (flat || thick) && (part->solid || !p->two_sided);
     *solid = convex && part->solid;
     return convex;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* How finely a shape is divided into facets: as finely as the edges of its shadows require, but
-   more coarsely if it is small compared with the other parts. This is a choice without a proof: the
-   error of the facets is computed from the mesh for each pose. */
+   more coarsely if it is small compared with the other parts. This is a choice without a proof, and
+   so are all its constants: they decide how many facets there are, while the error of these facets
+   is computed from the mesh for each pose. */
 #include "scene/build/fineness.h"
 
 #include <math.h>
@@ -26,7 +27,17 @@
 /* The chord of one of N sectors is within about this times (pi/N)^2 of the unit circle
    (mesh/shape/revolution.c). */
 #define SECTOR_REACH 0.36
+/* The factor of rim_corners. */
+#define RIM_FACTOR 5.0
+/* No shape is given more sectors than this for its shadows. */
+#define SECTORS_MAX 1e6
+/* Of the reach that a round body is allowed, its sectors take up a fraction between these, in
+   steps; its rings take up the rest. */
+#define FRACTION_MIN  0.3
+#define FRACTION_MAX  0.85
+#define FRACTION_STEP 0.1
 /* To keep within the limit of facets, a reach is enlarged by a quarter, at most so many times. */
+#define ENLARGEMENT      1.25
 #define ENLARGEMENTS_MAX 100
 
 /* Divisions of a shape whose facets appear only in pictures and records: the normals of neighbours
@@ -49,6 +60,12 @@
 
 /* If the components of a scale differ by more than this factor, no number of facets suffices. */
 #define RATIO_MAX 1e3
+/* A scale whose components differ by a ratio multiplies the error of a facet by slightly more than
+   the square of the ratio: this factor is meant to cover the rest. */
+#define RATIO_AMPLIFICATION 1.5
+
+/* Round bodies among other parts are divided for a tolerance this many times as large. */
+#define ROUND_COARSENING 10.0
 
 /* The area of a facet, in units of the mesh; 0 if a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
@@ -92,9 +109,9 @@ static double part_coarsening(const lrcsi_fineness *fineness, const lrcs_recipe_
 }
 
 /* The tolerance for which a shape is divided: as requested if it is alone. Among other parts the
-   requested tolerance is multiplied by the factor above. For round bodies it is also ten times as
-   large, and at least round_min, because their number of facets grows as 1/tolerance (that of
-   straight walls as its square root). */
+   requested tolerance is multiplied by the factor above. For round bodies it is also
+   ROUND_COARSENING times as large, and at least round_min, because their number of facets grows as
+   1/tolerance (that of straight walls as its square root). */
 static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
     double tolerance = fineness->tolerance;
@@ -103,22 +120,28 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
     }
     tolerance = fmin(tolerance * part_coarsening(fineness, part), fmax(1.0, tolerance));
     return lrcsi_shape_is_round(part->shape.kind)
-               ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_min)
+               ? fmax(fmin(ROUND_COARSENING * tolerance, 1.0), fineness->round_min)
                : tolerance;
 }
 
-/* Divides the rim of a shape among other parts finely enough for its shadows. The shadow of a rim
-   of radius R is uncertain over a strip of length 2 pi R and width 2 * 0.4 R (pi/N)^2. With N =
-   `corners` its area is less than half the tolerance times the area of the disc that the rim
-   bounds. */
+/* The number of sectors N of a rim among other parts whose shadow is accurate enough. The shadow of
+   a rim of radius R is uncertain over a strip of length 2 pi R and width 2 SECTOR_REACH R (pi/N)^2.
+   With N = pi sqrt(RIM_FACTOR / tolerance) its area is 4 SECTOR_REACH / RIM_FACTOR, less than a
+   third, of the tolerance times the area of the disc that the rim bounds. 3.1416: pi, rounded up.
+ */
+static double rim_corners(double tolerance)
+{
+    return 3.1416 * sqrt(RIM_FACTOR / tolerance);
+}
+
+/* Divides the rim of a shape among other parts finely enough for its shadows. */
 static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
-    double corners =
-        3.1416 * sqrt(ldexp(5.0 / shape_tolerance(fineness, part), fineness->halvings));
+    double corners = rim_corners(ldexp(shape_tolerance(fineness, part), -fineness->halvings));
     if (fineness->parts == 1 || divisions->along > 1 || lrcsi_shape_is_plane_faced(shape->kind) ||
-        !(corners < 1e6)) {
+        !(corners < SECTORS_MAX)) {
         return;
     }
     lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
@@ -136,7 +159,7 @@ static lrcs_divisions divide_round_by(const lrcsi_fineness *fineness, const lrcs
                                       double reach, double fraction)
 {
     double corners = LRCS_PI * sqrt(SECTOR_REACH * shape->radius / (fraction * reach));
-    lrcs_divisions d = {4 * (uint32_t)(fmin(fmax(corners, BASE_AROUND), 1e6) / 4.0 + 1.0),
+    lrcs_divisions d = {4 * (uint32_t)(fmin(fmax(corners, BASE_AROUND), SECTORS_MAX) / 4.0 + 1.0),
                         BASE_ALONG, 1};
     while (lrcsi_tessellate_counts(shape, &d).facets <= fineness->max_facets &&
            lrcsi_tessellate_reach(shape, &d).all > reach) {
@@ -153,7 +176,7 @@ static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_sh
     lrcs_divisions best = {0, 0, 0};
     uint32_t fewest = UINT32_MAX;
     for (int i = 0; i < ENLARGEMENTS_MAX && fewest > fineness->max_facets; i++) {
-        for (double fraction = 0.3; fraction < 0.85; fraction += 0.1) {
+        for (double fraction = FRACTION_MIN; fraction < FRACTION_MAX; fraction += FRACTION_STEP) {
             lrcs_divisions d = divide_round_by(fineness, shape, reach, fraction);
             uint32_t facets = lrcsi_tessellate_counts(shape, &d).facets;
             if (facets < fewest) {
@@ -161,7 +184,7 @@ static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_sh
                 fewest = facets;
             }
         }
-        reach *= 1.25;
+        reach *= ENLARGEMENT;
     }
     return best;
 }
@@ -177,9 +200,9 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
     const lrcs_shape *shape = &part->shape;
     double tolerance = fmin(fineness->tolerance * part_coarsening(fineness, part), 1.0);
     double reach = ROUND_REACH * fmax(tolerance, fineness->round_min) * shape->radius;
-    double corners = fmax(3.1416 * sqrt(5.0 / tolerance), BASE_AROUND);
+    double corners = fmax(rim_corners(tolerance), BASE_AROUND);
     corners *= sqrt(ldexp(1.0, fineness->halvings));
-    if (!(corners < 1e6)) {
+    if (!(corners < SECTORS_MAX)) {
         return 0;
     }
     *divisions = (lrcs_divisions){4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
@@ -261,7 +284,7 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
     double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double ratio = large / small < RATIO_MAX ? large / small : 1.0; /* 1 too if small is 0 */
-    double amplification = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
+    double amplification = ratio > 1.0 ? RATIO_AMPLIFICATION * ratio * ratio : 1.0;
     const double tolerance =
         ldexp(shape_tolerance(fineness, part) / amplification, -fineness->halvings);
     const lrcs_fineness wanted = {tolerance, material->brdf, fineness->max_facets};

@@ -13,6 +13,9 @@
 #include "mesh/shape/curvature.h"
 #include "mesh/shape/tessellate.h"
 
+/* Rounds a bound up by more than the few operations that compute it can round it down. */
+#define ROUNDED_UP 1.000001
+
 /* The smallest extent of a shape, in its own units; 0 for a flat shape. */
 static double smallest_extent(const lrcs_shape *shape)
 {
@@ -96,7 +99,7 @@ void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene 
     if (part->reach > 0.0 && e > 0.0) {
         double factor = 3.0 * (1.0 + part->curvature.area_err);
         double altitude = smallest_altitude(scene, part);
-        part->normal_err = 1.000001 * factor * e / altitude;
+        part->normal_err = ROUNDED_UP * factor * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
                               ? lrcsi_curvature_rounded(&part->curvature, part->normal_err)
@@ -146,7 +149,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->min_extent = smallest * smallest_extent(shape);
     part->solid = is_closed(shape) && part->min_extent > 0.0;
     if (reach.all > 0.0) {
-        double scaled = 1.000001 * norm;
+        double scaled = ROUNDED_UP * norm;
         double placed = 2.0 * part->position_err;
         part->reach = scaled * reach.all + placed;
         part->hausdorff =
