@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Little-endian items from bytes, on any host and at any alignment. */
+/* Ranges of bytes, and little-endian items from bytes, on any host and at any alignment. */
 #ifndef LRCSI_BYTES_H
 #define LRCSI_BYTES_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+
+/* A range of bytes in an input, for instance those of a name. */
+typedef struct lrcsi_span {
+    size_t at, size;
+} lrcsi_span;
 
 static inline unsigned lrcsi_bytes_u16(const unsigned char *byte)
 {

@@ -6,27 +6,18 @@
 #include <string.h>
 
 #include "base/fnv.h"
+#include "base/hash.h"
 #include "base/work.h"
-
-/* At least two slots a name, so that probes stay short and always meet an empty slot. */
-static size_t slot_count(size_t count)
-{
-    size_t slots = 4;
-    while (slots / 2 < count && slots <= SIZE_MAX / 4) {
-        slots *= 2;
-    }
-    return slots;
-}
 
 size_t lrcsi_index_need(size_t count)
 {
     return lrcsi_work_add(lrcsi_work_bytes(count, sizeof(lrcsi_indexed)),
-                          lrcsi_work_bytes(slot_count(count), sizeof(uint32_t)));
+                          lrcsi_work_bytes(lrcsi_hash_slots(count), sizeof(uint32_t)));
 }
 
 int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names)
 {
-    size_t slots = slot_count(count);
+    size_t slots = lrcsi_hash_slots(count);
     lrcsi_indexed *name = lrcsi_work_take(work, count, sizeof *name);
     uint32_t *slot = lrcsi_work_take_zero(work, slots, sizeof *slot);
     if (!name || !slot) {

@@ -65,7 +65,6 @@
 #include "integrate/facet_terms.h"
 #include "integrate/range_bins.h"
 #include "integrate/tessellation.h"
-#include "integrate/total.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity_hidden.h"
@@ -507,12 +506,12 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
         profile->bin[i] = (lrcs_profile_bin){
             lrcsi_prepared_area(p, glint),
             lrcsi_prepared_area(p, diffuse),
-            lrcsi_bound_area(p, (sums->bound + sums->tessellation + (glint + diffuse) * adding) *
-                                    outward),
-            lrcsi_bound_area(
+            lrcsi_prepared_bound(
+                p, (sums->bound + sums->tessellation + (glint + diffuse) * adding) * outward),
+            lrcsi_prepared_bound(
                 p, (sums->bound + sums->tessellation_variation + (glint + diffuse) * adding) *
                        outward),
-            p->has_curved_normals ? lrcsi_bound_area(p, sums->estimate * outward) : 0,
+            p->has_curved_normals ? lrcsi_prepared_bound(p, sums->estimate * outward) : 0,
             ldexp(moment, p->exponent)};
         if (profile->bin[i].variation_m2 < profile->bin[i].bound_m2) {
             profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
@@ -524,10 +523,10 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
     profile->first = profile->count > 0 ? run->bins.first + run->bins.begin : 0;
     profile->sigma_glint_m2 = lrcsi_prepared_area(p, glint);
     profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
-    profile->bound_m2 = lrcsi_bound_area(
+    profile->bound_m2 = lrcsi_prepared_bound(
         p, (run->bins.bound + run->tessellation + (glint + diffuse) * adding) * outward);
     profile->curvature_estimate_m2 =
-        p->has_curved_normals ? lrcsi_bound_area(p, run->bins.estimate * outward) : -1;
+        p->has_curved_normals ? lrcsi_prepared_bound(p, run->bins.estimate * outward) : -1;
     profile->tessellation_known = !p->has_curved_shapes || lrcsi_tessellation_known(p, &run->plan);
     profile->range_err_m = ldexp(run->bins.range_err, p->exponent);
 }

@@ -13,7 +13,6 @@
    4. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/total.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -164,14 +163,6 @@ static void records_start(lrcsi_total_run *run)
     }
 }
 
-/* If the result is denormal, the conversion may round by up to 2^-1075, and so may the conversions
-   of the values to which the bound applies, at most two: 2^-1073 covers all of them. */
-double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
-{
-    double area = lrcsi_prepared_area(p, scaled);
-    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
-}
-
 /* Converts the sums to square metres. The error of the compensated sums is part of rounding. */
 static void total_finish(lrcsi_total_run *run)
 {
@@ -186,11 +177,11 @@ static void total_finish(lrcsi_total_run *run)
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
-    total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
+    total->visibility = lrcsi_prepared_bound(p, sums->visibility * outward);
     double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
-    total->tessellation = lrcsi_bound_area(p, either * outward);
+    total->tessellation = lrcsi_prepared_bound(p, either * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
-    total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
+    total->rounding = lrcsi_prepared_bound(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
     total->error_estimate = fmin(lrcsi_prepared_area(p, estimate), total->visibility);
     total->cubature_estimate = lrcsi_prepared_area(p, sums->cubature_estimate);

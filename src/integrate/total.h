@@ -6,10 +6,6 @@
 
 #include "integrate/total_run.h"
 
-/* Converts a scaled bound on areas or on sigma to square metres, rounded outward where it
-   underflows. */
-double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
-
 /* Given: the view and its plan; the visible areas (answer NULL if there are curved shapes); the
    results of facets with curved normals, curve_terms[facet_count] (NULL: all are flat); the
    proximity band (NULL: none was made); the shapes that are evaluated by their closed forms instead

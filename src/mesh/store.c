@@ -7,20 +7,9 @@
 
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/index.h"
 #include "base/work.h"
-
-size_t lrcsi_store_slots(size_t count)
-{
-    size_t slots = 2;
-    while (slots / 2 < count) {
-        if (slots > SIZE_MAX / 2) {
-            return SIZE_MAX;
-        }
-        slots *= 2;
-    }
-    return slots;
-}
 
 /* Allocates the blocks of normals, if there are normals; no corner has one yet. Returns 0 if there
    is no room. */
@@ -69,7 +58,7 @@ int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh 
 size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
 {
     const size_t marks = lrcsi_work_bytes(counts->facets, 1);
-    const size_t table = lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t));
+    const size_t table = lrcsi_work_bytes(lrcsi_hash_slots(counts->vertices), sizeof(uint32_t));
     const size_t block[] = {
         lrcsi_work_bytes(counts->materials, sizeof(lrcs_surface)),
         lrcsi_work_bytes(counts->parts, sizeof(const char *)),

@@ -12,9 +12,9 @@
 
 #include "base/bits.h"
 #include "base/exact.h"
+#include "base/hash.h"
 #include "base/sort.h"
 #include "base/work.h"
-#include "mesh/store.h"
 
 /* A side is 3 * facet + k, from corner k to the next. */
 enum { SIDES = 3 };
@@ -45,7 +45,7 @@ static size_t weld_scratch(uint32_t vertex_count)
 {
     size_t sorted = lrcsi_work_add(lrcsi_work_blocks(2, vertex_count, sizeof(uint64_t)),
                                    lrcsi_work_blocks(2, vertex_count, sizeof(uint32_t)));
-    size_t hashed = lrcsi_work_bytes(lrcsi_store_slots(vertex_count), sizeof(uint32_t));
+    size_t hashed = lrcsi_work_bytes(lrcsi_hash_slots(vertex_count), sizeof(uint32_t));
     return sorted > hashed ? sorted : hashed;
 }
 
@@ -63,7 +63,7 @@ static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot,
         for (uint32_t j = 0; j < batch; j++) {
             uint64_t key = 0;
             for (int k = 0; k < 3; k++) {
-                key = lrcsi_store_mix(key + coordinate_key(vertex[first + j].x[k]));
+                key = lrcsi_hash_mix(key + coordinate_key(vertex[first + j].x[k]));
             }
             first_slot[j] = (size_t)key & (slots - 1);
             weld[first + j] = slot[first_slot[j]]; /* overwritten below */
@@ -114,7 +114,7 @@ static int weld_sorted(const lrcs_point *vertex, uint32_t count, lrcs_work *work
 static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work, uint32_t *weld)
 {
     size_t mark = work->used;
-    size_t slots = lrcsi_store_slots(count);
+    size_t slots = lrcsi_hash_slots(count);
     uint32_t *slot = lrcsi_work_take(work, slots, sizeof *slot);
     int hashed = slot && weld_hashed(vertex, count, slot, slots, weld);
     work->used = mark;

@@ -9,6 +9,7 @@
 
 #include <lrcs/prepare.h>
 
+#include <float.h>
 #include <math.h>
 
 #include "base/elementary.h"
@@ -194,6 +195,15 @@ static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, u
 static inline double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
 {
     return ldexp(scaled, 2 * p->exponent);
+}
+
+/* Converts a scaled bound on areas or on sigma to square metres, rounded outward. If the result is
+   denormal, the conversion may round by up to 2^-1075, and so may the conversions of the values to
+   which the bound applies, at most two: 2^-1073 covers all of them. */
+static inline double lrcsi_prepared_bound(const lrcs_prepared *p, double scaled)
+{
+    double area = lrcsi_prepared_area(p, scaled);
+    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
 }
 
 #endif

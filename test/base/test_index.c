@@ -1,11 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* The index from names to numbers. */
+/* The index from names to numbers, and the sizes of hash tables. */
 #include "base/index.h"
 
 #include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "check.h"
+
+static void a_table_is_a_power_of_two_and_at_most_half_full(void **state)
+{
+    (void)state;
+    for (size_t count = 0; count < 3000; count++) {
+        size_t slots = lrcsi_hash_slots(count);
+        assert_int_equal(slots & (slots - 1), 0);
+        assert_true(slots / 2 >= count && slots > count);
+        assert_true(slots <= 4 * count || slots == 2);
+    }
+    assert_int_equal(lrcsi_hash_slots(SIZE_MAX), SIZE_MAX);
+    assert_int_equal(lrcsi_hash_slots(SIZE_MAX / 2), SIZE_MAX);
+}
 
 static void names_differ_by_bytes_and_tag(void **state)
 {
@@ -82,6 +96,7 @@ static void more_names_than_memory_can_hold_need_all_of_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_table_is_a_power_of_two_and_at_most_half_full),
         cmocka_unit_test(names_differ_by_bytes_and_tag),
         cmocka_unit_test(a_second_put_replaces_the_value),
         cmocka_unit_test(an_index_of_nothing_finds_nothing),

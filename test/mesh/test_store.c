@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Blocks of a mesh in the work area, and the tables readers look things up in. */
+/* Blocks of a mesh in the work area. */
 #include "mesh/store.h"
 
 #include <lrcs/read.h>
@@ -8,19 +8,6 @@
 #include <string.h>
 
 #include "check.h"
-
-static void a_table_is_a_power_of_two_and_at_most_half_full(void **state)
-{
-    (void)state;
-    for (size_t count = 0; count < 3000; count++) {
-        size_t slots = lrcsi_store_slots(count);
-        assert_int_equal(slots & (slots - 1), 0);
-        assert_true(slots / 2 >= count && slots > count);
-        assert_true(slots <= 4 * count || slots == 2);
-    }
-    assert_int_equal(lrcsi_store_slots(SIZE_MAX), SIZE_MAX);
-    assert_int_equal(lrcsi_store_slots(SIZE_MAX / 2), SIZE_MAX);
-}
 
 static void the_need_serves_at_any_alignment_and_the_blocks_are_cleared(void **state)
 {
@@ -65,7 +52,6 @@ static void counts_beyond_memory_need_more_than_there_is(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_table_is_a_power_of_two_and_at_most_half_full),
         cmocka_unit_test(the_need_serves_at_any_alignment_and_the_blocks_are_cleared),
         cmocka_unit_test(counts_beyond_memory_need_more_than_there_is),
     };

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/exact.h"
+#include "base/hash.h"
 #include "base/work.h"
 #include "check.h"
 #include "mesh/store.h"
@@ -180,7 +181,7 @@ static void a_vertex_of_many_edges_keeps_every_promise(void **state)
     assert_true(t.edge[100].low == 0);
 }
 
-/* The number whose lrcsi_store_mix is `mixed`: each of its steps undone. */
+/* The number whose lrcsi_hash_mix is `mixed`: each of its steps undone. */
 static uint64_t unmix(uint64_t mixed)
 {
     mixed ^= mixed >> 31 ^ mixed >> 62;
@@ -213,10 +214,10 @@ static void points_that_hash_alike_are_welded_all_the_same(void **state)
     uint32_t count = 0;
     for (uint64_t i = 1; count < ALIKE; i++) {
         double x = (double)i;
-        double z = double_of(unmix(77) - lrcsi_store_mix(lrcsi_store_mix(bits_of(x)) + bits_of(x)));
+        double z = double_of(unmix(77) - lrcsi_hash_mix(lrcsi_hash_mix(bits_of(x)) + bits_of(x)));
         if (fabs(z) < 1e100) {
-            assert_true(lrcsi_store_mix(lrcsi_store_mix(lrcsi_store_mix(bits_of(x)) + bits_of(x)) +
-                                        bits_of(z)) == 77);
+            assert_true(lrcsi_hash_mix(lrcsi_hash_mix(lrcsi_hash_mix(bits_of(x)) + bits_of(x)) +
+                                       bits_of(z)) == 77);
             vertex[2 * ALIKE - 1 - count] = (lrcs_point){{x, x, z}};
             vertex[count++] = (lrcs_point){{x, x, z}};
         }

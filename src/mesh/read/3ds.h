@@ -8,6 +8,7 @@
 
 #include <lrcs/mesh.h>
 
+#include "base/bytes.h"
 #include "base/index.h"
 #include "mesh/store.h"
 

@@ -14,9 +14,11 @@
 #include "base/bits.h"
 #include "base/bytes.h"
 #include "base/constant.h"
+#include "base/hash.h"
 #include "base/text.h"
 #include "base/where.h"
 #include "base/work.h"
+#include "mesh/store.h"
 
 #define STL_HEADER 84u
 #define STL_FACET  50u
@@ -57,7 +59,7 @@ static uint32_t stl_weld(lrcsi_stl_walk *walk, const double x[3])
     uint64_t key = 0;
     for (int k = 0; k < 3; k++) {
         point.x[k] = x[k] + 0.0;
-        key = lrcsi_store_mix(key + lrcsi_bits_of(point.x[k]));
+        key = lrcsi_hash_mix(key + lrcsi_bits_of(point.x[k]));
     }
     size_t slot = (size_t)key & (walk->slots - 1);
     while (walk->slot[slot] != LRCS_NONE) {
@@ -183,7 +185,7 @@ static void stl_name_part(lrcsi_stl_walk *walk, lrcs_mesh *mesh, char *text)
 /* Fills the blocks, then releases the table and the unused vertices. */
 static int stl_fill(lrcsi_stl_walk *walk, lrcs_mesh *mesh, lrcs_work *work)
 {
-    walk->slots = lrcsi_store_slots(mesh->vertex_count);
+    walk->slots = lrcsi_hash_slots(mesh->vertex_count);
     walk->slot = lrcsi_work_take(work, walk->slots, sizeof *walk->slot);
     if (!walk->slot) {
         return LRCS_E_MEMORY;

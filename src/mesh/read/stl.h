@@ -6,7 +6,7 @@
 
 #include <lrcs/mesh.h>
 
-#include "mesh/store.h"
+#include "base/bytes.h"
 
 typedef struct lrcsi_stl_walk {
     const unsigned char *bytes;
