@@ -131,7 +131,7 @@ lrcs_brdf study_with(lrcs_brdf brdf, char parameter, double value)
 study_number study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
                             const lrcs_aspect *aspect)
 {
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     int status = lrcs_closed_eval(shape, brdf, aspect, &closed);
     if (status == LRCS_OK) {
         return (study_number){closed.sigma_m2, closed.bound_m2};

@@ -55,9 +55,9 @@ typedef struct lrcs_aspect {
 
 /* The result of a closed form. |value - truth| <= bound, where dimensions, brdf and aspect are
    taken as exact. */
-typedef struct lrcs_closed {
+typedef struct lrcs_closed_form {
     double sigma_m2, sigma_glint_m2, sigma_diffuse_m2, bound_m2;
-} lrcs_closed;
+} lrcs_closed_form;
 
 /* sigma of a shape alone, from its closed form (or, where none is known, from a 1-D quadrature
    accurate to 1e-14).
@@ -73,7 +73,7 @@ typedef struct lrcs_closed {
    2. A component of a direction below 2^-480 of the largest counts as 0.
    Source: see src/optics. */
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
-                     lrcs_closed *closed);
+                     lrcs_closed_form *closed);
 
 /* How closely a mesh approximates the curved body it replaces. For each facet there is a patch of
    the true surface. Patches cover the body once (facets of one plane may share a patch, each in

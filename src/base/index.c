@@ -11,14 +11,14 @@
 
 size_t lrcsi_index_need(size_t count)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(count, sizeof(lrcsi_indexed)),
+    return lrcsi_work_add(lrcsi_work_bytes(count, sizeof(lrcsi_index_entry)),
                           lrcsi_work_bytes(lrcsi_hash_slots(count), sizeof(uint32_t)));
 }
 
 int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names)
 {
     size_t slots = lrcsi_hash_slots(count);
-    lrcsi_indexed *name = lrcsi_work_take(work, count, sizeof *name);
+    lrcsi_index_entry *name = lrcsi_work_take(work, count, sizeof *name);
     uint32_t *slot = lrcsi_work_take_zero(work, slots, sizeof *slot);
     if (!name || !slot) {
         return LRCS_E_MEMORY;
@@ -36,7 +36,7 @@ static size_t slot_of(const lrcsi_index *names, uint32_t tag, const void *bytes,
     }
     size_t at = (size_t)(hash ^ hash >> 32) & names->mask;
     while (names->slot[at] != 0) {
-        const lrcsi_indexed *name = &names->name[names->slot[at] - 1];
+        const lrcsi_index_entry *name = &names->name[names->slot[at] - 1];
         if (name->tag == tag && name->size == size && memcmp(name->bytes, bytes, size) == 0) {
             break;
         }
@@ -56,7 +56,7 @@ void lrcsi_index_put(lrcsi_index *names, uint32_t tag, const void *bytes, size_t
 {
     uint32_t *slot = &names->slot[slot_of(names, tag, bytes, size)];
     if (*slot == 0) {
-        names->name[names->count] = (lrcsi_indexed){bytes, size, tag, value};
+        names->name[names->count] = (lrcsi_index_entry){bytes, size, tag, value};
         *slot = ++names->count;
     }
     names->name[*slot - 1].value = value;

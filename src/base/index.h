@@ -7,14 +7,14 @@
 #include <lrcs/work.h>
 
 /* A name is a byte string and a tag, which distinguishes names of different kinds. */
-typedef struct lrcsi_indexed {
+typedef struct lrcsi_index_entry {
     const void *bytes;
     size_t size;
     uint32_t tag, value;
-} lrcsi_indexed;
+} lrcsi_index_entry;
 
 typedef struct lrcsi_index {
-    lrcsi_indexed *name;
+    lrcsi_index_entry *name;
     uint32_t *slot; /* mask + 1 slots: 0 if empty, else a name's index + 1 */
     size_t mask;
     uint32_t count;

@@ -158,7 +158,7 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
     return code ? code : aspect_read(args, form, aspect);
 }
 
-static void shape_print(const cli_args *args, const lrcs_closed *closed)
+static void shape_print(const cli_args *args, const lrcs_closed_form *closed)
 {
     char bound[LRCS_HOST_BOUND_SIZE];
     if (cli_value(args, "json")) {
@@ -187,7 +187,7 @@ static int shape_command(const cli_args *args)
     lrcs_shape shape = {0};
     lrcs_aspect aspect = {0};
     lrcs_brdf brdf = lrcs_brdf_default();
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     lrcs_where where = {0};
     const char *material = cli_value(args, "material");
     int code = shape_read(args, &shape, &aspect);

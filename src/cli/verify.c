@@ -91,7 +91,7 @@ static int verify_case_run(const lrcs_host_scene *scene, const lrcs_shape *shape
     lrcs_aspect aspect = {.deg = one->aspect_deg};
     lrcs_pose pose;
     lrcs_result result = {0};
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     options.method = LRCS_METHOD_FACET;
     options.tolerance = VERIFY_TOLERANCE;
     int status = lrcs_closed_eval(shape, one->brdf, &aspect, &closed);

@@ -192,7 +192,7 @@ int lrcsi_closed_shape(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrc
 }
 
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
-                     lrcs_closed *closed)
+                     lrcs_closed_form *closed)
 {
     int status = lrcsi_closed_check(shape, brdf);
     if (status != LRCS_OK) {
@@ -210,7 +210,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
     }
     lrcsi_term_integrals sum = closed_sum(shape, brdf, &laser);
     lrcsi_closed_scale(&sum, 4.0 * LRCS_PI, 1.0);
-    lrcs_closed out = {0.0, sum.value[LRCSI_GLINT], sum.value[LRCSI_DIFFUSE], 0.0};
+    lrcs_closed_form out = {0.0, sum.value[LRCSI_GLINT], sum.value[LRCSI_DIFFUSE], 0.0};
     out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;
     out.bound_m2 = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];
     /* the sums themselves, and products that are subnormal: 2^-1074 each */

@@ -77,7 +77,7 @@ static void the_truth_of_a_single_shape_is_its_closed_form(void **state)
         .kind = LRCS_SHAPE_CYLINDER, .parts = LRCS_SHAPE_ALL, .radius = 0.5, .length = 2.0};
     const lrcs_brdf brdf = {1.0, 0.25, 0.2, 0.5};
     const lrcs_aspect aspect = {.deg = 60.0};
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
     assert_string_equal(all->truth.text, "the closed form of the cylinder");
     assert_true(all->truth.whole);

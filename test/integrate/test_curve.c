@@ -60,7 +60,7 @@ static double closed_cylinder(const lrcs_brdf *brdf, double aspect_deg)
 {
     lrcs_shape shape = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 2};
     lrcs_aspect aspect = {.deg = aspect_deg};
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     assert_int_equal(lrcs_closed_eval(&shape, brdf, &aspect, &closed), LRCS_OK);
     return closed.sigma_m2;
 }
@@ -148,7 +148,7 @@ static void a_smooth_sphere_is_within_what_its_chords_lose(void **state)
     lrcs_shape shape = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
     lrcs_aspect aspect = {.deg = 0};
     for (int i = 0; i < 4; i++) {
-        lrcs_closed closed;
+        lrcs_closed_form closed;
         c.brdf = (lrcs_brdf){1, 0, 0.05, 0};
         assert_int_equal(lrcs_closed_eval(&shape, &c.brdf, &aspect, &closed), LRCS_OK);
         curved_build(&c, LRCS_NORMALS_SMOOTH);

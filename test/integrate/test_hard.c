@@ -117,7 +117,7 @@ static void check_cone(double half_angle)
     const lrcs_brdf brdf = lrcs_brdf_default();
     for (int i = 0; i < 5; i++) {
         char name[64];
-        lrcs_closed c;
+        lrcs_closed_form c;
         const lrcs_aspect at = {.deg = aspect[i]};
         snprintf(name, sizeof name, "cone %.9g %s", half_angle, from[i]);
         double want = reference(name);
@@ -150,7 +150,7 @@ static void aspect_0_tangent_to_the_cone_and_180_agree(void **state)
         .kind = LRCS_SHAPE_CONE, .parts = LRCS_SHAPE_WALL, .radius = 0.5, .half_angle_deg = 45};
     check_cone(45);
     for (double deg = 135; deg <= 180; deg += 22.5) {
-        lrcs_closed c;
+        lrcs_closed_form c;
         const lrcs_aspect at = {.deg = deg};
         assert_int_equal(lrcs_closed_eval(&wall, &brdf, &at, &c), LRCS_OK);
         check_same(c.sigma_m2, 0);

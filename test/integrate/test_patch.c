@@ -250,7 +250,7 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
     const double d[3] = {0, 0, 1};
     const lrcs_place place = lrcs_place_default();
     const lrcs_aspect aspect = {1, 0, {0, 0, 1}};
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     double sum = 0;
     scene_make(&shape, &place, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {

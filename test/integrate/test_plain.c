@@ -553,7 +553,7 @@ static hard_answer case_run(const hard_case *one)
         answer.status = facets_run(one, &answer);
     } else {
         const lrcs_aspect aspect = {.deg = one->aspect_deg};
-        lrcs_closed closed = {0};
+        lrcs_closed_form closed = {0};
         answer.status = lrcs_closed_eval(&one->shape, &one->brdf, &aspect, &closed);
         answer.engine = closed.sigma_m2;
         answer.bound = closed.bound_m2;

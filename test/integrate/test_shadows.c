@@ -113,7 +113,7 @@ static void a_sphere_over_a_plate(void **state)
     const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {8, 8}};
     static const double height[] = {0.5, 0.75, 2}; /* the first rests on the plate */
     const lrcs_aspect any = {.deg = 0};
-    lrcs_closed sphere;
+    lrcs_closed_form sphere;
     assert_int_equal(lrcs_closed_eval(&ball, &glossy, &any, &sphere), LRCS_OK);
     for (int i = 0; i < 9; i++) {
         double theta = (i % 3) * 25 * PI / 180;
@@ -141,7 +141,7 @@ static void a_cone_on_its_tip_over_a_plate(void **state)
             away > R ? R * R * (PI - acos(R / away)) + R * sqrt(away * away - R * R) : PI * R * R;
         const lrcs_aspect aspect = {.deg = 180 - deg};
         const double d[3] = {sin(theta), 0, cos(theta)};
-        lrcs_closed whole;
+        lrcs_closed_form whole;
         shadow_scene s = scene_of(glossy, 0);
         turn_over(add(&s, cone, 0.125, 0.25, cone.length));
         add(&s, plate, 0, 0, 0);
@@ -160,7 +160,7 @@ static void a_cylinder_on_a_plate(void **state)
     for (int degrees = 0; degrees <= 60; degrees += 20) {
         double theta = degrees * PI / 180;
         lrcs_aspect aspect = {.deg = degrees};
-        lrcs_closed cylinder;
+        lrcs_closed_form cylinder;
         assert_int_equal(lrcs_closed_eval(&post, &glossy, &aspect, &cylinder), LRCS_OK);
         for (int above = 0; above < 2; above++) { /* standing, and a little sunk */
             shadow_scene s = scene_of(glossy, 0);
@@ -417,7 +417,7 @@ static void parts_far_from_the_origin_count_how_placing_rounds_them(void **state
         lrcs_aspect aspect = {.deg = 2.0 * i};
         double theta = aspect.deg * PI / 180;
         const double d[3] = {sin(theta), 0, cos(theta)};
-        lrcs_closed truth;
+        lrcs_closed_form truth;
         shadow_scene s = scene_of(glossy, 0);
         lrcs_recipe_part *part = add(&s, i % 2 ? can : disc, 1.3, -0.7, 1.9);
         assert_int_equal(lrcs_closed_eval(&part->shape, &glossy, &aspect, &truth), LRCS_OK);

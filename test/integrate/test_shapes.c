@@ -134,7 +134,7 @@ static void a_shape_alone_is_its_closed_form_to_rounding(void **state)
             shapes_scene s = scene_of((lrcs_brdf){1, 0.25, slope[i / ROWS(d)], 0.5}, 0);
             lrcs_aspect aspect = {.by_direction = 1};
             memcpy(aspect.direction, d[i % ROWS(d)], sizeof aspect.direction);
-            lrcs_closed truth;
+            lrcs_closed_form truth;
             add(&s, bodies[b]);
             assert_int_equal(lrcs_closed_eval(&bodies[b], &s.material.brdf, &aspect, &truth),
                              LRCS_OK);
@@ -195,7 +195,7 @@ static void a_shape_placed_is_its_closed_form_seen_from_its_frame(void **state)
         double factor = i % 3 ? 1 : 1.7;
         double d[3];
         lrcs_aspect aspect = {.by_direction = 1};
-        lrcs_closed truth;
+        lrcs_closed_form truth;
         assert_int_equal(lrcsi_rotate_euler("XYZ", deg, part->place.rotate), LRCS_OK);
         for (int k = 0; k < 3; k++) {
             d[k] = 2 * random_unit(&seed) - 1;
@@ -290,7 +290,7 @@ static void a_two_sided_shell_needs_facets_where_its_inside_shows(void **state)
             shapes_scene s = scene_of(glossy, two_sided);
             const double d[3] = {0.6, 0, below ? -0.8 : 0.8};
             const lrcs_aspect aspect = {.by_direction = 1, .direction = {0.6, 0, d[2]}};
-            lrcs_closed outside;
+            lrcs_closed_form outside;
             add(&s, bowl);
             assert_int_equal(lrcs_closed_eval(&bowl, &glossy, &aspect, &outside), LRCS_OK);
             lrcs_result r = run_auto(&s, d);
@@ -324,7 +324,7 @@ static void patches_on_the_limb_of_a_two_sided_shell_count_from_both_sides(void 
             0.001 + i / 3 * (3.14159 / 384); /* two sectors of a cone of 512 facets, and more */
         const double d[3] = {cos(turn), sin(turn), 0.01};
         lrcs_aspect aspect = {.by_direction = 1, .direction = {d[0], d[1], d[2]}};
-        lrcs_closed truth;
+        lrcs_closed_form truth;
         add(&s, shells[i % 3]);
         assert_int_equal(lrcs_closed_eval(&shells[i % 3], &diffuse, &aspect, &truth), LRCS_OK);
         lrcs_result r = shapes_run(&s, &mesh, d, LRCS_METHOD_EXACT);
@@ -383,7 +383,7 @@ static void shapes_far_apart_are_all_closed_forms(void **state)
     double want = 0;
     for (int i = 0; i < 5; i++) {
         const lrcs_aspect aspect = {.by_direction = 1, .direction = {0.1, 0.05, 1}};
-        lrcs_closed one;
+        lrcs_closed_form one;
         lrcs_recipe_part *part = add(&s, bodies[i]);
         part->place.translate[0] = 4 * i;
         assert_int_equal(lrcs_closed_eval(&bodies[i], &glossy, &aspect, &one), LRCS_OK);

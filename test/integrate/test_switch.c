@@ -248,7 +248,7 @@ static const lrcs_shape shapes[] = {
 
 /* A run as planned, then each effect and all of them simulated. */
 static void check_aspect(const lrcs_prepared *prepared, lrcs_work *work, double deg,
-                         const lrcs_closed *closed)
+                         const lrcs_closed_form *closed)
 {
     lrcs_pose pose;
     lrcs_result plain;
@@ -287,7 +287,7 @@ static void check_shape(const lrcs_shape *shape, int two_sided)
     int open = shape->kind == LRCS_SHAPE_PLATE || shape->parts == LRCS_SHAPE_WALL;
     for (size_t i = 0; i < sizeof aspect / sizeof *aspect; i++) {
         lrcs_aspect at = {.deg = aspect[i]};
-        lrcs_closed closed;
+        lrcs_closed_form closed;
         assert_int_equal(lrcs_closed_eval(shape, &brdf, &at, &closed), LRCS_OK);
         check_aspect(prepared, &work, aspect[i], two_sided && open ? NULL : &closed);
     }

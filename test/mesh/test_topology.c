@@ -10,7 +10,6 @@
 #include "base/hash.h"
 #include "base/work.h"
 #include "check.h"
-#include "mesh/store.h"
 
 enum { ROOM = 1 << 20 };
 

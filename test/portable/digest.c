@@ -513,7 +513,7 @@ static void keep_closed_forms(void)
         for (int b = 0; b < 3; b++) {
             for (uint32_t deg = 0; deg <= 180; deg += 20 * stride) {
                 lrcs_aspect aspect = {.deg = deg};
-                lrcs_closed closed;
+                lrcs_closed_form closed;
                 assert_int_equal(lrcs_closed_eval(&shape, &brdf[b], &aspect, &closed), LRCS_OK);
                 keep_sigma("closed", number++, closed.sigma_m2, closed.bound_m2);
             }

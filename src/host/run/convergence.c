@@ -278,7 +278,7 @@ static int truth_closed(lrcs_host_convergence *job)
     }
     const lrcs_material *material = &scene->material[scene->facet_material[0]];
     lrcs_aspect aspect = {.by_direction = 1};
-    lrcs_closed closed;
+    lrcs_closed_form closed;
     memcpy(aspect.direction, job->pose.direction, sizeof aspect.direction);
     if (material->two_sided || material->omitted ||
         lrcs_closed_eval(&recipe->part[0].shape, &material->brdf, &aspect, &closed) != LRCS_OK) {

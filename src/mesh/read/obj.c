@@ -7,8 +7,8 @@
 #include "base/text.h"
 #include "base/where.h"
 #include "base/work.h"
-#include "mesh/read/distinct.h"
 #include "mesh/read/lines.h"
+#include "mesh/read/name_list.h"
 #include "mesh/store.h"
 
 #include <lrcs/read.h>
@@ -38,7 +38,7 @@ typedef struct obj_walk {
     obj_name part, material, library;
     /* Only if a mesh is filled. */
     lrcs_mesh *mesh;
-    lrcsi_distinct parts, materials;
+    lrcsi_name_list parts, materials;
     char *text;
 } obj_walk;
 
@@ -70,7 +70,7 @@ static void enter_part(obj_walk *w)
     w->counts.parts++;
     w->counts.text_bytes += name_text(w, &w->part);
     if (w->mesh) {
-        w->part.index = lrcsi_distinct_add(&w->parts, w->part.bytes, w->part.size, &w->text);
+        w->part.index = lrcsi_name_list_add(&w->parts, w->part.bytes, w->part.size, &w->text);
     }
 }
 
@@ -86,7 +86,7 @@ static void enter_material(obj_walk *w)
     w->counts.text_bytes += name_text(w, &w->material);
     if (w->mesh) {
         w->material.index =
-            lrcsi_distinct_add(&w->materials, w->material.bytes, w->material.size, &w->text);
+            lrcsi_name_list_add(&w->materials, w->material.bytes, w->material.size, &w->text);
     }
 }
 
@@ -375,9 +375,9 @@ static int obj_take(obj_walk *w, const lrcs_mesh_counts *counts, lrcs_work *work
     *kept = work->used;
     const char **name = lrcsi_work_take(work, counts->materials, sizeof *name);
     status =
-        name ? lrcsi_distinct_make(name, counts->materials, work, &w->materials) : LRCS_E_MEMORY;
+        name ? lrcsi_name_list_make(name, counts->materials, work, &w->materials) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_distinct_make(mesh->part, counts->parts, work, &w->parts);
+        status = lrcsi_name_list_make(mesh->part, counts->parts, work, &w->parts);
     }
     w->mesh = mesh;
     return status;
