@@ -37,7 +37,7 @@ static inline void scene_start(test_scene *s)
 {
     s->assigned = 0;
     s->material[0] = (lrcs_material){.name = "", .brdf = {1, 0.25, 0.2, 0.5}, .brdf_given = 1};
-    s->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1};
+    s->part = (lrcs_part){.name = "part", .kind = -1, .bounds.known = 1};
     s->scene = (lrcs_scene){.material_count = 1,
                             .part_count = 1,
                             .vertex = s->vertex,

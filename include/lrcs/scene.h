@@ -23,38 +23,45 @@ typedef struct lrcs_material {
                         errors are one and the same; 0: the default */
 } lrcs_material;
 
-/* A placed part. */
-typedef struct lrcs_part {
-    const char *name;
-    int kind; /* lrcs_shape_kind, or -1 for a model file */
-    uint32_t first_facet, facet_count;
-    lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
-    int curvature_known; /* 0 if rounding in placing left a facet with zero area, or a matrix given
-                            as a rotation is not one; 1 for models (where it does not apply) */
-    double stretch_err;  /* a scale that differs between axes stretches areas unevenly: 1 + this
-                       bounds the ratio, either way, of the stretch at a point of a patch to
-                       its mean over the facet */
-    int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
-    int solid;           /* a closed outward solid by construction, up to rounding */
-    double min_extent;   /* m, smallest extent of such a shape; 0 for plate and disc */
-    double position_err; /* m, bound on the rounding error of its placed vertices */
+/* Proved bounds on how far the facets of an engine-made shape are from the true shape. What they
+   cost in sigma is lrcs_budget.tessellation_m2. Zero for a model file, whose facets are the truth,
+   except for `known`. */
+typedef struct lrcs_part_bounds {
+    int known; /* 0: no bound holds, because rounding in placing left a facet with zero area, or a
+                  matrix given as a rotation is not one; 1 for models */
+    lrcs_patch_bounds patch; /* of each facet */
+    double stretch_err;      /* a scale that differs between axes stretches areas unevenly: 1 + this
+                                bounds the ratio, either way, of the stretch at a point of a patch
+                                to its mean over the facet */
+    double position_err;     /* m, bound on the rounding error of its placed vertices */
     double normal_err; /* rad, bound on the rotation of facet normals by rounding in placing, where
-                      reach > 0; included in curvature */
+                          reach > 0; included in `patch` */
     double reach;      /* m, bound on the distance of a point of the true surface from its image on
                           the facets; 0 if the facets are the truth */
     double hausdorff;  /* m, where reach > 0: bound on the distance of any point of the true solid
                           (of an open shape, of the true surface) from the facets' solid (from the
                           facets), and the reverse */
     double displacement[3]; /* m, of a rigid shape's curved wall: bounds on the radial, axial and
-                            tangential components of that distance */
-    int articulated;        /* has a joint */
-    int smoothed;           /* its model has smoothing groups or vertex normals */
+                               tangential components of that distance */
+} lrcs_part_bounds;
+
+/* A placed part. */
+typedef struct lrcs_part {
+    const char *name;
+    int kind; /* lrcs_shape_kind, or -1 for a model file */
+    uint32_t first_facet, facet_count;
+    lrcs_part_bounds bounds;
+    int convex_patch;  /* a piece of a convex surface by construction, up to rounding */
+    int solid;         /* a closed outward solid by construction, up to rounding */
+    double min_extent; /* m, smallest extent of such a shape; 0 for plate and disc */
+    int articulated;   /* has a joint */
+    int smoothed;      /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
                          axes: shape to axis_exact are valid, and its closed form may be used */
     lrcs_shape shape; /* in its own units */
     lrcs_divisions divisions; /* of its mesh */
     double unit;              /* metres per unit */
-    double origin[3];         /* m, position of its origin, to within `position_err` */
+    double origin[3];         /* m, position of its origin, to within bounds.position_err */
     /* Its x, y and z axes in the body frame: unit vectors, rounded; axis + axis_low is accurate to
        2^-97. The truth is the shape rotated by the rotations nearest to the matrices given. */
     double axis[3][3];

@@ -75,22 +75,21 @@ typedef struct lrcs_closed_form {
 int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_aspect *aspect,
                      lrcs_closed_form *closed);
 
-/* How closely a mesh approximates the curved body it replaces. For each facet there is a patch of
-   the true surface. Patches cover the body once (facets of one plane may share a patch, each in
-   proportion to its area), and over every patch:
-     the true normal deviates from the facet's normal by at most `turn` (rad);
-     |patch area - facet area| <= area_err * facet area;
-     |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias * facet area;
-     integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area.
-   All are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of
-   the mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling
-   (the rounding of these is not included). */
-typedef struct lrcs_curvature {
+/* Bounds on how closely the facets of a mesh approximate the curved body that they replace. For
+   each facet there is a patch of the true surface. Patches cover the body once (facets of one plane
+   may share a patch, each in proportion to its area), and over every patch: the true normal
+   deviates from the facet's normal by at most `turn` (rad); |patch area - facet area| <= area_err *
+   facet area; |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias *
+   facet area; integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area. All
+   are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of the
+   mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling (the
+   rounding of these is not included). */
+typedef struct lrcs_patch_bounds {
     double turn;
     double area_err;
     double bias;
     double rms_turn;
-} lrcs_curvature;
+} lrcs_patch_bounds;
 
 /* How finely to tessellate. */
 typedef struct lrcs_fineness {
@@ -112,10 +111,10 @@ typedef struct lrcs_divisions {
 
 /* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no
    materials; text_bytes for the part's name). Curved bodies: the smallest number of facets for
-   which the proved error (from lrcs_curvature and bounds of the brdf) meets the tolerance at every
-   aspect of a sampled set, relative to sigma or to its mean over attitudes, whichever is larger;
-   at most max_facets. If even max_facets do not reduce the error below sigma itself, the glint is
-   disregarded and the diffuse term determines the count.
+   which the proved error (from lrcs_patch_bounds, and bounds of the brdf) meets the tolerance at
+   every aspect of a sampled set, relative to sigma or to its mean over attitudes, whichever is
+   larger; at most max_facets. If even max_facets do not reduce the error below sigma itself, the
+   glint is disregarded and the diffuse term determines the count.
    Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, as lrcs_shape_check; fineness).
    Work: O(around log around); milliseconds. */
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
@@ -124,9 +123,9 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
 /* Makes the mesh. Facets share vertices by position and face outward; the mesh is symmetric to the
    bit; coordinates are accurate to a few ulp. Every circle becomes an N-gon of the same area with
    its first corner on +x. The length of a cylinder, cone or frustum is kept. The curved wall is
-   smoothing group 1; flat faces are in none. curvature may be NULL. Status: LRCS_OK;
+   smoothing group 1; flat faces are in none. bounds may be NULL. Status: LRCS_OK;
    LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, or divisions invalid for it); LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
-                    lrcs_mesh *mesh, lrcs_curvature *curvature);
+                    lrcs_mesh *mesh, lrcs_patch_bounds *bounds);
 
 #endif

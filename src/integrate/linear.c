@@ -125,7 +125,7 @@ typedef struct linear_patch {
 /* Fills the gradients of l and returns the sum of both terms' dF/dc as far as they vary; the bounds
    of what depends on F alone, and the error of the gradients. */
 static double gradients_make(const linear_patch *at, const linear_term term[2],
-                             const lrcsi_patch *patch, const lrcs_curvature *c, double second,
+                             const lrcsi_patch *patch, const lrcs_patch_bounds *c, double second,
                              lrcsi_linear *linear)
 {
     const double mean[2] = {patch->glint, patch->diffuse};
@@ -171,10 +171,10 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
 /* 1. The axes of the facets; 2. both terms' gradients; 3. what the linear part adds to the bounds.
  */
 int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                      const lrcs_curvature *curvature, double second, lrcsi_linear *linear)
+                      const lrcs_patch_bounds *bounds, double second, lrcsi_linear *linear)
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
-    const double a = curvature->area_err;
+    const double a = bounds->area_err;
     lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
     lrcsi_revolution_normals normals = lrcsi_revolution_normals_make(&body, patch->at.row);
     double unit = ldexp(part->unit, -view->prepared->exponent);
@@ -191,7 +191,7 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
         !linear_terms(brdf, at.c, at.p, &term[0], &term[1])) {
         return 0;
     }
-    double kept = gradients_make(&at, term, patch, curvature, second, linear); /* 2 */
+    double kept = gradients_make(&at, term, patch, bounds, second, linear); /* 2 */
 
     double x = fabs(kept * at.toward[0]); /* 3 */
     double y = fabs(kept * at.toward[1]);

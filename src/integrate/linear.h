@@ -23,11 +23,11 @@ typedef struct lrcsi_linear {
     double rounding; /* the part of either that is due to rounding */
 } lrcsi_linear;
 
-/* Given: a patch that is known; the curvature of its part; `second` of lrcsi_deviation for it. The
+/* Given: a patch that is known; the bounds of its part; `second` of lrcsi_deviation for it. The
    bounds do not include the errors of the patch's mean. Returned: 1 and l; 0 if there is none: the
    shape's scale differs between axes, or rounding errors are too large. */
 int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                      const lrcs_curvature *curvature, double second, lrcsi_linear *linear);
+                      const lrcs_patch_bounds *bounds, double second, lrcsi_linear *linear);
 
 /* What is visible of a facet, about the centroid of the facets that share its patch. */
 typedef struct lrcsi_linear_moment {

@@ -153,8 +153,8 @@ uint32_t lrcsi_patch_partner(const lrcs_prepared *p, uint32_t facet)
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    return p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0 && part->normals_known &&
-           part->curvature_known;
+    return p->scene->facet_smooth[facet] != 0 && part->bounds.patch.turn > 0 &&
+           part->normals_known && part->bounds.known;
 }
 
 /* u = tan^2 theta of a normal, given sine and cosine of its angle from the axis, and those of its
@@ -245,7 +245,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
     frame_middle(f);
     f->negligible = patches->negligible / f->area;
     f->derivatives = patches->derivatives;
-    patch->area_err = 2 * (lrcsi_revolution_rounding(&body, at->row) + part->normal_err);
+    patch->area_err = 2 * (lrcsi_revolution_rounding(&body, at->row) + part->bounds.normal_err);
     return isfinite(f->area) && (!f->fourth || body.step > 0);
 }
 

@@ -17,7 +17,7 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_part *part = lrcsi_patch_part(view->prepared, facet);
     return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
-           !(part->reach > 0 && part->solid);
+           !(part->bounds.reach > 0 && part->solid);
 }
 
 int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,

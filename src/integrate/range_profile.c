@@ -317,7 +317,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     facet_ranges(run, facet, &f);
     facet_ranges(run, error.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
-    double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     int order[3];
     lrcsi_range_order(f.range, order);
@@ -353,14 +353,14 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* The largest reach of the parts whose curvature is known, m. That of other parts may be infinite;
+/* The largest reach of the parts whose bounds are known, m. That of other parts may be infinite;
    no tessellation error is added for their facets. */
 static double max_reach(const lrcs_prepared *prepared)
 {
     double reach = 0;
     for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
         const lrcs_part *part = &prepared->scene->part[i];
-        reach = part->curvature_known ? lrcsi_max(reach, part->reach) : reach;
+        reach = part->bounds.known ? lrcsi_max(reach, part->bounds.reach) : reach;
     }
     return reach;
 }

@@ -113,7 +113,7 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
 {
     const lrcsi_view *view = &run->view;
     const lrcs_scene *scene = view->prepared->scene;
-    const lrcs_curvature *c = &scene->part[scene->facet_part[facet]].curvature;
+    const lrcs_patch_bounds *c = &scene->part[scene->facet_part[facet]].bounds.patch;
     double projected = lrcsi_view_projected(view, facet);
     lrcsi_unit_response at = {0, 0, 0, 0};
     for (int i = 0; i < 2; i++) {

@@ -66,22 +66,23 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/shape/curvature.h"
+#include "mesh/shape/patch_bounds.h"
 
 /* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
    are computed in double-double and rounded. */
 #define FLAT_TURN 1e-12
 
-/* The curvature of a facet's patch: that of the curved wall, or of a disc that rounding in placing
+/* The bounds of a facet's patch: those of the curved wall, or of a disc that rounding in placing
    may have tilted. */
-static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
+static lrcs_patch_bounds patch_bounds_of(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
-    if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
-        return part->curvature;
+    const lrcs_patch_bounds flat = {FLAT_TURN, 0, 0, 0};
+    if (p->scene->facet_smooth[facet] != 0 && part->bounds.patch.turn > 0) {
+        return part->bounds.patch;
     }
-    return part->normal_err > 0 ? lrcsi_curvature_rounded(&flat, part->normal_err) : flat;
+    return part->bounds.normal_err > 0 ? lrcsi_patch_bounds_rounded(&flat, part->bounds.normal_err)
+                                       : flat;
 }
 
 /* The error, per unit of area, of a facet of a closed part that faces away, whose inside seems to
@@ -89,7 +90,7 @@ static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
 static double inside_error(const lrcsi_tessellation_input *in, uint32_t facet,
                            const lrcs_brdf *brdf, const lrcsi_incidence *incidence)
 {
-    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
+    const lrcs_patch_bounds flat = {FLAT_TURN, 0, 0, 0};
     const lrcsi_view *view = in->view;
     if (!in->band || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
         !(in->visible[facet].high > 0)) {
@@ -103,7 +104,7 @@ static double inside_error(const lrcsi_tessellation_input *in, uint32_t facet,
 /* An upper bound of what a patch may reflect from its other side, the one that the facet turns away
    from the laser, per unit of the facet's area. */
 static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, const lrcs_brdf *brdf,
-                         const lrcsi_incidence *incidence, const lrcs_curvature *c)
+                         const lrcsi_incidence *incidence, const lrcs_patch_bounds *c)
 {
     const lrcs_prepared *p = in->view->prepared;
     if (!(c->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
@@ -119,7 +120,7 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     for (uint32_t i = 0; i < p->scene->part_count && plan->fronts_visible; i++) {
-        if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
+        if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].bounds.known) {
             return 0;
         }
     }
@@ -140,7 +141,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     const lrcsi_view *view = in->view;
     const lrcs_prepared *p = view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
-    const lrcs_curvature c = patch_curvature(p, facet);
+    const lrcs_patch_bounds c = patch_bounds_of(p, facet);
     int is_curved = c.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
     int is_certain = !in->band || in->band->mismatch[facet] == 0;
@@ -167,7 +168,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         }
     }
     lrcsi_wall_facet at = {.facet = facet, /* 4 */
-                           .curvature = c,
+                           .bounds = c,
                            .area_err = lrcsi_patch_area_err(p, facet, &c),
                            .state = state,
                            .partner = partner,
@@ -214,7 +215,7 @@ lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input 
 {
     const lrcs_prepared *p = in->view->prepared;
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    const lrcs_curvature c = patch_curvature(p, facet);
+    const lrcs_patch_bounds c = patch_bounds_of(p, facet);
     int is_curved = c.turn > FLAT_TURN;
     lrcsi_tessellation error = lrcsi_tessellation_error(in, facet, incidence, patches);
     lrcsi_interval_error e = {.whole = fmax(error.above, error.below),

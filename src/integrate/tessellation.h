@@ -6,7 +6,7 @@
 
 #include "integrate/wall_error.h"
 
-/* 1 if that error can be bounded: the curvature of every part must be known, and one of these must
+/* 1 if that error can be bounded: the bounds of every part must be known, and one of these must
    hold: no front facet is hidden; a proximity band bounds the difference in visibility; no shadows
    are searched for, so that the bound includes everything that could be hidden. */
 int lrcsi_tessellation_known(const lrcs_prepared *prepared, const lrcsi_plan *plan);

@@ -81,7 +81,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
         const lrcs_part *part = lrcsi_patch_part(p, facet);
         int has_patch = lrcsi_patch_exists(p, facet);
         lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, facet));
-        brdf = brdf_widened(&brdf, has_patch ? part->curvature.turn : 0);
+        brdf = brdf_widened(&brdf, has_patch ? part->bounds.patch.turn : 0);
         lrcsi_reflection f =
             lrcsi_reflect(&brdf, (1 - cosine) * (1 + cosine) / (cosine * cosine), 0);
         double visible = run->areas->visible ? lrcsi_areas_value(run->areas, run->view, facet)

@@ -130,11 +130,11 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     const lrcsi_part_set set = others | lrcsi_part_set_of(own);
     double reach = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].reach : 0;
+        reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].bounds.reach : 0;
     }
     for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
         run->details.part_error[i] +=
-            (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].reach / reach) : 0;
+            (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].bounds.reach / reach) : 0;
     }
 }
 

@@ -11,9 +11,9 @@
 
 /* --- how F varies over a patch ---------------------------------------------------------------- */
 
-double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
+double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_patch_bounds *c)
 {
-    double stretch_err = lrcsi_patch_part(p, facet)->stretch_err;
+    double stretch_err = lrcsi_patch_part(p, facet)->bounds.stretch_err;
     return c->area_err + stretch_err + c->area_err * stretch_err;
 }
 
@@ -44,14 +44,14 @@ static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
     of_f->region += error;
     of_f->point += difference + deviation->stretch * (mean + error);
     of_f->value = mean + error;
-    double stretch_err = lrcsi_patch_part(p, facet)->stretch_err;
+    double stretch_err = lrcsi_patch_part(p, facet)->bounds.stretch_err;
     deviation->stretch = patch->area_err + stretch_err * (2 + stretch_err);
 }
 
 /* The deviation for a facet whose patch, if it has one, has been made. */
 static lrcsi_patch_deviation patch_deviation(const lrcsi_tessellation_input *in, uint32_t facet,
                                              const lrcsi_incidence *incidence,
-                                             const lrcs_curvature *c, const lrcsi_patch *patch)
+                                             const lrcs_patch_bounds *c, const lrcsi_patch *patch)
 {
     const lrcs_prepared *p = in->view->prepared;
     lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
@@ -67,7 +67,7 @@ static lrcsi_patch_deviation patch_deviation(const lrcsi_tessellation_input *in,
 
 lrcsi_patch_deviation lrcsi_patch_deviation_make(const lrcsi_tessellation_input *in, uint32_t facet,
                                                  const lrcsi_incidence *incidence,
-                                                 const lrcs_curvature *c, lrcsi_patches *patches)
+                                                 const lrcs_patch_bounds *c, lrcsi_patches *patches)
 {
     lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(in->view->prepared, facet));
     return patch_deviation(in, facet, incidence, c,
@@ -274,7 +274,7 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     lrcsi_linear linear;
     patch_correction own;
     patch_correction other = {0, 0, 0, 1};
-    if (!lrcsi_linear_make(in->view, &brdf, patch, &at->curvature, sector->deviation.second,
+    if (!lrcsi_linear_make(in->view, &brdf, patch, &at->bounds, sector->deviation.second,
                            &linear) ||
         !correction_make(in, at, at->facet, &linear, &own) ||
         (together &&
@@ -321,8 +321,7 @@ lrcsi_tessellation lrcsi_wall_error(const lrcsi_tessellation_input *in, const lr
     if (sector.joint) {
         double stretch = at->deviation.stretch;
         if (first != at->facet) {
-            lrcsi_patch_deviation d =
-                patch_deviation(in, first, &at->pair[0], &at->curvature, patch);
+            lrcsi_patch_deviation d = patch_deviation(in, first, &at->pair[0], &at->bounds, patch);
             sector.deviation = d.of_f;
             stretch = d.stretch;
         }

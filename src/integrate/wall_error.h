@@ -34,7 +34,7 @@ typedef struct lrcsi_tessellation {
    on the facet: a. It combines the difference of the whole patch with the variation of the stretch
    over the patch. */
 double lrcsi_patch_area_err(const lrcs_prepared *prepared, uint32_t facet,
-                            const lrcs_curvature *curvature);
+                            const lrcs_patch_bounds *bounds);
 
 /* How F varies over a patch. */
 typedef struct lrcsi_patch_deviation {
@@ -44,16 +44,16 @@ typedef struct lrcsi_patch_deviation {
     const lrcsi_patch *patch; /* F_i is this patch's mean; NULL: it is F at the facet's normal */
 } lrcsi_patch_deviation;
 
-/* For the patch of a facet of given incidence and curvature. */
+/* For the patch of a facet of given incidence and bounds. */
 lrcsi_patch_deviation lrcsi_patch_deviation_make(const lrcsi_tessellation_input *in, uint32_t facet,
                                                  const lrcsi_incidence *incidence,
-                                                 const lrcs_curvature *curvature,
+                                                 const lrcs_patch_bounds *bounds,
                                                  lrcsi_patches *patches);
 
 /* What is known about a facet on a curved wall. */
 typedef struct lrcsi_wall_facet {
     uint32_t facet;
-    lrcs_curvature curvature;
+    lrcs_patch_bounds bounds;
     double area_err;    /* lrcsi_patch_area_err */
     int state, partner; /* lrcsi_patch_state, of the facet and of the other one of its sector */
     lrcsi_incidence

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Bounds on the deviation of F = f_r cos^2 over the normals of a curved patch from its value at the
    facet's normal: the proved tessellation error of one facet. Four numbers describe the patch
-   (lrcs_curvature).
+   (lrcs_patch_bounds).
 
    On the sphere of normals F(n) = G(theta), theta the angle between n and s_hat. Along the geodesic
    from the facet's normal by the turn vector t
@@ -9,7 +9,7 @@
    where the eigenvalues of the Hessian are G'' and cot(theta) G'. G is once continuously
    differentiable, also across 90 deg, where it becomes 0, and its second derivative is bounded,
    which suffices here. This is integrated over the patch, per unit of facet area, with the numbers
-   of lrcs_curvature (a = area_err) and suprema over the angles within `turn` of theta_i:
+   of lrcs_patch_bounds (a = area_err) and suprema over the angles within `turn` of theta_i:
        second   a F_i + bias |G'_i| + rms_turn^2/2 sup max(|G''|, |cot G'|)
        first    a F_i + sqrt(1 + a) rms_turn sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
@@ -222,7 +222,7 @@ static int range_around(double theta, double turn, tan2_range *range)
 }
 
 /* The smallest of the three bounds, and the other bounds. */
-static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_curvature *c)
+static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_patch_bounds *c)
 {
     double second =
         times(c->bias, all->slope) + times(0.5 * c->rms_turn * c->rms_turn, all->second);
@@ -246,15 +246,15 @@ static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_cur
 }
 
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                                     const lrcs_curvature *curvature)
+                                     const lrcs_patch_bounds *bounds)
 {
-    if (cos_theta < -(curvature->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
+    if (cos_theta < -(bounds->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
         return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     int front = cos_theta > 0.0;
     double angle = atan(sqrt(tan2));
     tan2_range range;
-    if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
+    if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, bounds->turn, &range)) {
         return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     tan2_point at_facet = tan2_at(tan2);
@@ -267,17 +267,17 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
         deviation_suprema term = diffuse_suprema(brdf->m, front, &at_facet, &range);
         suprema_add(&all, brdf->B, &term);
     }
-    return deviation_of(&all, curvature);
+    return deviation_of(&all, bounds);
 }
 
 double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                               const lrcs_curvature *curvature)
+                               const lrcs_patch_bounds *bounds)
 {
-    const lrcs_curvature *c = curvature;
+    const lrcs_patch_bounds *c = bounds;
     if (c->turn == 0.0 && c->area_err == 0.0 && c->bias == 0.0 && c->rms_turn == 0.0) {
         return 0.0;
     }
-    return lrcsi_deviation_make(brdf, cos_theta, tan2, curvature).whole;
+    return lrcsi_deviation_make(brdf, cos_theta, tan2, bounds).whole;
 }
 
 /* f_r cos is w^(5/2) E, one of the glint terms, and w^(-(m+1)/2), which decreases. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How many facets a curved body needs for its material: lrcs_shape_count. The count is estimated
-   before any mesh exists. The proved error, from lrcs_curvature and lrcsi_reflect_deviation, is
+   before any mesh exists. The proved error, from lrcs_patch_bounds and lrcsi_reflect_deviation, is
    evaluated for each pose on the mesh and does not depend on this estimate.
 
    The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
@@ -37,7 +37,7 @@
 /* A curved wall: its material, and how coarse its facets are. */
 typedef struct divided_wall {
     const lrcs_brdf *brdf;
-    lrcs_curvature curvature;
+    lrcs_patch_bounds bounds;
 } divided_wall;
 
 /* For one direction: F and its deviation bound. */
@@ -47,7 +47,7 @@ typedef struct wall_value {
 
 static wall_value wall_at(const divided_wall *wall, double cosine, double tan2)
 {
-    wall_value value = {0.0, lrcsi_reflect_deviation(wall->brdf, cosine, tan2, &wall->curvature)};
+    wall_value value = {0.0, lrcsi_reflect_deviation(wall->brdf, cosine, tan2, &wall->bounds)};
     if (cosine > 0.0) {
         lrcsi_reflection f = lrcsi_reflect(wall->brdf, tan2, 0.0);
         value.sigma = f.glint + f.diffuse;
@@ -69,14 +69,14 @@ static double midpoint_node(int k, double near, double end, double *weight)
 static double glint_extent(const divided_wall *wall, double end)
 {
     double width = wall->brdf->A > 0.0 ? wall->brdf->s : 1.0;
-    return fmin(GLINT_WIDTHS * fmax(width, wall->curvature.turn), 0.5 * end);
+    return fmin(GLINT_WIDTHS * fmax(width, wall->bounds.turn), 0.5 * end);
 }
 
 /* Mean over all normals of a sphere. */
 static wall_value mean_over_sphere(const divided_wall *wall)
 {
     wall_value sum = {0.0, 0.0};
-    double end = fmin(0.5 * LRCS_PI + wall->curvature.turn, LRCS_PI);
+    double end = fmin(0.5 * LRCS_PI + wall->bounds.turn, LRCS_PI);
     double narrow =
         fmin(GLINT_WIDTHS * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
     for (int k = 0; k < DIVIDE_NODES; k++) {
@@ -193,7 +193,7 @@ static divided_wall divided_wall_make(const lrcs_shape *shape, const lrcs_brdf *
                                       uint32_t around)
 {
     lrcs_divisions divisions = divisions_for(shape, around);
-    return (divided_wall){brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+    return (divided_wall){brdf, lrcsi_tessellate_patch_bounds(shape, &divisions)};
 }
 
 /* The estimated relative error of a shape with that many facets around. */

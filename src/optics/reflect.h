@@ -29,9 +29,9 @@ double lrcsi_reflect_glint_root(double s);
      | integral over the patch of F dA / (facet area)  -  F(facet normal) |,
    F(n) = f_r cos^2 if n . s_hat > 0, else 0 (the 4 pi is the caller's).
    Given: brdf; the facet normal's cos and tan^2 to s_hat (cos <= 0: it faces away, though part of
-   the patch may not); the patch's curvature. Proved; 0 for a flat patch (all four numbers 0). */
+   the patch may not); the bounds of the patch. Proved; 0 for a flat patch (all four numbers 0). */
 double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                               const lrcs_curvature *curvature);
+                               const lrcs_patch_bounds *bounds);
 
 /* The variation of F over a patch, for patches that are only partly visible. All fields except
    `value` are upper bounds. */
@@ -45,10 +45,10 @@ typedef struct lrcsi_deviation {
                       any great circle */
 } lrcsi_deviation;
 
-/* The same bounds for any curvature. For a flat patch `whole`, `point` and `region` may be of the
+/* The same for any patch. For a flat one `whole`, `point` and `region` may be of the
    size of rounding errors instead of 0. */
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
-                                     const lrcs_curvature *curvature);
+                                     const lrcs_patch_bounds *bounds);
 
 /* Proved upper bounds of the two terms of f_r cos (not cos^2) over all normals within `turn` of a
    normal at angle theta to s_hat, both in rad, theta <= pi. `error` is 0.

@@ -28,7 +28,7 @@ typedef struct coincident_group {
 
 static int may_coincide(const lrcs_prepared *p, uint32_t facet)
 {
-    return !p->skip[facet] && !(p->scene->part[p->scene->facet_part[facet]].reach > 0);
+    return !p->skip[facet] && !(p->scene->part[p->scene->facet_part[facet]].bounds.reach > 0);
 }
 
 static int reflects_back(const lrcs_prepared *p, uint32_t facet)

@@ -29,7 +29,7 @@ static int any_closed_form(const lrcs_scene *scene)
 static int has_closed_form(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
-    if (part->kind < 0 || !part->rigid || !part->curvature_known ||
+    if (part->kind < 0 || !part->rigid || !part->bounds.known ||
         !lrcsi_placed_shape_closed_form(&part->shape, 0) || part->facet_count == 0) {
         return 0;
     }
@@ -67,7 +67,7 @@ int lrcsi_extents_make(lrcs_prepared *p, lrcs_work *work)
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         uint32_t part = scene->facet_part[f];
-        double reach = ldexp(scene->part[part].reach, -p->exponent) + 1e-15;
+        double reach = ldexp(scene->part[part].bounds.reach, -p->exponent) + 1e-15;
         for (int i = 0; i < 9 && !p->skip[f]; i++) {
             double x = lrcsi_prepared_corner(p, f, i / 3)[i % 3];
             extent[part].low[i % 3] = lrcsi_min(extent[part].low[i % 3], x - reach);

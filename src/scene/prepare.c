@@ -75,7 +75,8 @@ static void find_live(lrcs_prepared *p)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         const lrcs_material *material = lrcsi_prepared_material(p, f);
         const lrcs_part *part = &p->scene->part[p->scene->facet_part[f]];
-        p->has_curved_shapes |= !material->omitted && (part->reach > 0 || !part->curvature_known);
+        p->has_curved_shapes |=
+            !material->omitted && (part->bounds.reach > 0 || !part->bounds.known);
         p->skip[f] = p->topology.degenerate[f] || material->omitted;
         p->redundant[f] = p->skip[f] ? LRCSI_REDUNDANT : LRCSI_NOT_REDUNDANT;
         if (p->skip[f]) {

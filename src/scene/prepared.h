@@ -66,7 +66,7 @@ typedef struct lrcsi_proximity_pair {
 
 typedef struct lrcsi_proximity {
     double *reach; /* part: lrcs_part.reach, scaled; NULL if there is no curved shape among other
-                      parts, or if the curvature of some part is not known */
+                      parts, or if the bounds of some part are not known */
     double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
     double max_hausdorff;

@@ -83,7 +83,7 @@ lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *p, uint32_t
                          &cosine);
     d.known = 1;
     for (int k = 0; k < 3; k++) {
-        d.bound[k] = ldexp(part->displacement[k], -p->exponent) * (1 + 1e-9);
+        d.bound[k] = ldexp(part->bounds.displacement[k], -p->exponent) * (1 + 1e-9);
         d.direction[0][k] = part->axis[0][k] * cosine + part->axis[1][k] * sine;
         d.direction[1][k] = part->axis[2][k];
         d.direction[2][k] = part->axis[1][k] * cosine - part->axis[0][k] * sine;
@@ -124,7 +124,7 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     int is_straight = part->kind == LRCS_SHAPE_CYLINDER || part->kind == LRCS_SHAPE_CONE ||
                       part->kind == LRCS_SHAPE_FRUSTUM;
-    return is_straight && part->curvature.turn > 0 && p->scene->facet_smooth[facet] != 0;
+    return is_straight && part->bounds.patch.turn > 0 && p->scene->facet_smooth[facet] != 0;
 }
 
 /* Heights are measured towards `top`, the corner opposite the side on a circle. A wall's vertices
@@ -296,7 +296,7 @@ static int pairs_find(lrcs_prepared *p, lrcs_work *work)
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-/* 0 if the curvature of some part is not known, or if a facet of a curved part has no area, by
+/* 0 if the bounds of some part are not known, or if a facet of a curved part has no area, by
    rounding: its other facets then do not determine what the part hides. */
 static int parts_known(const lrcs_prepared *p)
 {
@@ -304,7 +304,7 @@ static int parts_known(const lrcs_prepared *p)
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         const lrcs_part *part = &scene->part[scene->facet_part[f]];
         if (!lrcsi_prepared_material(p, f)->omitted &&
-            (!part->curvature_known || (part->reach > 0 && p->topology.degenerate[f]))) {
+            (!part->bounds.known || (part->bounds.reach > 0 && p->topology.degenerate[f]))) {
             return 0;
         }
     }
@@ -320,8 +320,8 @@ static void parts_fill(lrcs_prepared *p)
     lrcsi_proximity *proximity = &p->proximity;
     const lrcs_scene *scene = p->scene;
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        proximity->reach[i] = ldexp(scene->part[i].reach, -p->exponent);
-        proximity->hausdorff[i] = ldexp(scene->part[i].hausdorff, -p->exponent);
+        proximity->reach[i] = ldexp(scene->part[i].bounds.reach, -p->exponent);
+        proximity->hausdorff[i] = ldexp(scene->part[i].bounds.hausdorff, -p->exponent);
         proximity->max_hausdorff = lrcsi_max(proximity->max_hausdorff, proximity->hausdorff[i]);
         proximity->grazing_cos[i] = 0;
     }
@@ -330,7 +330,7 @@ static void parts_fill(lrcs_prepared *p)
         if (p->skip[f] || proximity->reach[i] == 0) {
             continue;
         }
-        double vertex_err = ldexp(scene->part[i].position_err, -p->exponent) + 4 * LRCSI_U;
+        double vertex_err = ldexp(scene->part[i].bounds.position_err, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
             lrcsi_max(proximity->grazing_cos[i], GRAZING_FACTOR * vertex_err / altitude);
@@ -341,7 +341,7 @@ size_t lrcsi_proximity_need(const lrcs_scene *scene)
 {
     size_t need = 0;
     for (uint32_t i = 0; i < scene->part_count && need == 0; i++) {
-        if (scene->part[i].reach > 0) {
+        if (scene->part[i].bounds.reach > 0) {
             need =
                 lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_proximity_pair));
             need = lrcsi_work_add(need, lrcsi_work_blocks(3, scene->part_count, sizeof(double)));

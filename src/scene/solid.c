@@ -144,7 +144,7 @@ static void measure_concavity(const lrcs_prepared *p, double *concavity, double 
 /* A bound on the distance of a part's vertices from its convex surface, scaled. */
 static double vertex_error(const lrcs_prepared *p, const lrcs_part *part)
 {
-    return ldexp(part->position_err, -p->exponent) + 4 * LRCSI_U;
+    return ldexp(part->bounds.position_err, -p->exponent) + 4 * LRCSI_U;
 }
 
 /* The argument at lrcsi_convex_grazing supposes that vertex errors are small compared with the
@@ -205,7 +205,7 @@ double lrcsi_convex_grazing(const lrcs_prepared *p)
     }
     measure_concavity(p, &concavity, &altitude);
     return 16 * vertex_err / altitude +
-           (concavity > 16 * vertex_err ? 3 * part->curvature.turn : 0);
+           (concavity > 16 * vertex_err ? 3 * part->bounds.patch.turn : 0);
 }
 
 /* The proof for scenes with omitted facets: the edges of p->topology include these, so a topology

@@ -64,14 +64,14 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
         body.solid = lrcsi_body_solid(p, index);
         body.vertex_ratio = shape.vertex_ratio;
         body.beyond = shape.step > 0 && !shape.level_rings
-                          ? ldexp(part->hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)
+                          ? ldexp(part->bounds.hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)
                           : 0;
         for (int k = 0; k < 3; k++) {
             body.origin[k] = ldexp(part->origin[k], -p->exponent);
             size += fabs(body.origin[k]);
         }
         size += body.vertex_ratio * (body.solid.radius + body.solid.radius2) + body.solid.length;
-        body.err = 64 * LRCSI_U * size + ldexp(part->position_err, -p->exponent);
+        body.err = 64 * LRCSI_U * size + ldexp(part->bounds.position_err, -p->exponent);
     }
     return body;
 }
@@ -94,7 +94,7 @@ static double support_facets(const lrcsi_body *body, const double n[3])
     const lrcs_prepared *p = body->prepared;
     const lrcs_part *part = body->part;
     double highest = -HUGE_VAL;
-    if (part->reach > 0 || part->facet_count > CORNERS_MAX) {
+    if (part->bounds.reach > 0 || part->facet_count > CORNERS_MAX) {
         highest = 0;
         for (int k = 0; k < 3; k++) {
             highest += n[k] * (n[k] > 0 ? body->extent->high[k] : body->extent->low[k]);

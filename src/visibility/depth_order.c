@@ -31,7 +31,7 @@ static int axes_count(const lrcsi_body *body)
 /* Is the area of a part's surface in a slab across the axis of `own` known? */
 static int has_slab(const lrcsi_body *body, const lrcsi_body *own)
 {
-    return body->part->reach == 0 || (body->curved && body == own && body->beyond == 0);
+    return body->part->bounds.reach == 0 || (body->curved && body == own && body->beyond == 0);
 }
 
 static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],

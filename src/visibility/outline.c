@@ -32,7 +32,7 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[index];
     lrcsi_outline o = {.part = part};
-    if (!part->rigid || !(part->reach > 0) || part->kind == LRCS_SHAPE_DISC ||
+    if (!part->rigid || !(part->bounds.reach > 0) || part->kind == LRCS_SHAPE_DISC ||
         lrcsi_proximity_openings(p, index) > 1) {
         return o;
     }
@@ -58,7 +58,7 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     }
     o.size = 2 * o.vertex_ratio * lrcsi_max(o.solid.radius, o.solid.radius2) + o.solid.length;
     o.k = p->proximity.hausdorff[index];
-    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->position_err, -p->exponent);
+    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->bounds.position_err, -p->exponent);
     return o;
 }
 
@@ -88,8 +88,8 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
     double at = lrcsi_vec3_dot(from, n);
     double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
     double e = 2 * o->err + 64 * LRCSI_U * far;
-    if (own->reach > 0) {
-        e += own->normal_err * far + 2 * ldexp(own->position_err, -p->exponent);
+    if (own->bounds.reach > 0) {
+        e += own->bounds.normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
     }
     double lowest[3];
     double highest[3];

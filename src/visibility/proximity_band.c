@@ -161,7 +161,7 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
         double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
                         (n->length * job->view->length);
         count++;
-        facing |= cosine > -(p->scene->part[part].curvature.turn + COS_ERR);
+        facing |= cosine > -(p->scene->part[part].bounds.patch.turn + COS_ERR);
     }
     return count == 1 && facing;
 }

@@ -15,7 +15,7 @@ static void scene_start(bench_scene *s, size_t room)
     *s = (bench_scene){.scene = {.material_count = 2, .part_count = 1, .unmatched = LRCS_NONE}};
     s->material[0] = (lrcs_material){.name = "foil", .brdf = {1, 0.25, 0.2, 0.5}, .brdf_given = 1};
     s->material[1] = (lrcs_material){.name = "cells", .brdf = {2, 0.05, 0.1, 1}, .brdf_given = 1};
-    s->part = (lrcs_part){.name = "made", .kind = -1, .curvature_known = 1};
+    s->part = (lrcs_part){.name = "made", .kind = -1, .bounds.known = 1};
     s->room = (uint32_t)room;
     s->scene.material = s->material;
     s->scene.part = &s->part;

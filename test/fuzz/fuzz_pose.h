@@ -170,7 +170,7 @@ static inline void take_scene(fuzz_input *in, int curved, pose_input *p)
         take_material(in, &p->material[i]);
     }
     double scale = take_scale(in);
-    p->part = (lrcs_part){.name = "", .kind = -1, .curvature_known = 1};
+    p->part = (lrcs_part){.name = "", .kind = -1, .bounds.known = 1};
     p->scene = (lrcs_scene){.vertex_count = 3 + fuzz_byte(in) % (VERTICES - 2),
                             .material_count = MATERIALS,
                             .part_count = 1,

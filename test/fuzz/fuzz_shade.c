@@ -91,7 +91,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
         }
         facets[count] = (lrcs_facet){{3 * count, 3 * count + 1, 3 * count + 2}};
     }
-    lrcs_part part = {.name = "part", .kind = -1, .curvature_known = 1, .facet_count = count};
+    lrcs_part part = {.name = "part", .kind = -1, .bounds.known = 1, .facet_count = count};
     const lrcs_scene scene = {.vertex_count = 3 * count,
                               .facet_count = count,
                               .material_count = 1,

@@ -139,7 +139,7 @@ static int read_case(FILE *in, hostile_case *c)
         c->material[i] =
             (lrcs_material){.name = "", .brdf = {x[0], x[1], x[2], x[3]}, .brdf_given = 1};
     }
-    c->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1, .facet_count = facets};
+    c->part = (lrcs_part){.name = "part", .kind = -1, .bounds.known = 1, .facet_count = facets};
     c->scene = (lrcs_scene){.vertex_count = vertices,
                             .facet_count = facets,
                             .material_count = 2,

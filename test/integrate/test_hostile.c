@@ -79,7 +79,7 @@ static void check_run(const hostile_case *c, int sided, int method, uint32_t siz
     lrcs_material material[2] = {{.name = "", .brdf = c->brdf[0], .brdf_given = 1},
                                  {.name = "", .brdf = c->brdf[1], .brdf_given = 1}};
     material[0].two_sided = material[1].two_sided = (unsigned char)sided;
-    lrcs_part part = {.name = "", .kind = -1, .curvature_known = 1, .facet_count = c->facets};
+    lrcs_part part = {.name = "", .kind = -1, .bounds.known = 1, .facet_count = c->facets};
     lrcs_scene scene = {.vertex_count = c->vertices,
                         .facet_count = c->facets,
                         .material_count = 2,

@@ -37,7 +37,7 @@ static void comb_make(comb *c, uint32_t n)
     size_t line = (size_t)n + 1;
     lrcs_scene *s = &c->scene;
     c->material = (lrcs_material){.name = "", .brdf = lrcs_brdf_default(), .brdf_given = 1};
-    c->part = (lrcs_part){.name = "", .kind = -1, .facet_count = 4 * n * n, .curvature_known = 1};
+    c->part = (lrcs_part){.name = "", .kind = -1, .facet_count = 4 * n * n, .bounds.known = 1};
     *s = (lrcs_scene){.material_count = 1,
                       .part_count = 1,
                       .vertex = take(2 * line * line, sizeof *s->vertex),

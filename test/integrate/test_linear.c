@@ -178,7 +178,7 @@ static void compare(double is, double most, double *closest, const char *what, u
 /* Points at equal fractions of area; regions: on one side of lines in the view, and between rows.
    Their integrals are sums over these points. */
 static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                        const lrcsi_linear *linear, const lrcs_curvature *c, const strip *at,
+                        const lrcsi_linear *linear, const lrcs_patch_bounds *c, const strip *at,
                         uint64_t began)
 {
     enum { STEPS = 48, LINES = 12 };
@@ -263,7 +263,7 @@ static void shape_check(void)
     assert_int_equal(lrcsi_rotate_euler("XYZ", euler, s.place.rotate), LRCS_OK);
     scene_make(&shape, between(2e-3, 2e-1), &brdf, d, &s);
     const lrcs_part *part = &s.scene.part[0];
-    const lrcs_curvature *c = &part->curvature;
+    const lrcs_patch_bounds *c = &part->bounds.patch;
     lrcsi_revolution body = lrcsi_revolution_make(&shape, &part->divisions);
     uint32_t step = 29 + part->facet_count / 40;
     for (uint32_t f = (uint32_t)(step * random_unit(&seed)); f < part->facet_count; f += step) {

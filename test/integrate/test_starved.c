@@ -285,8 +285,8 @@ static void steps_within_grow_until_they_fit(void **state)
                 (const double[3]){0, 1, 0});
     lrcs_part part[2] = {boxed.part, boxed.part};
     part[0].facet_count = 12;
-    part[0].curvature = (lrcs_curvature){0.1, 0.01, 0.01, 0.1};
-    part[0].reach = 0.01;
+    part[0].bounds.patch = (lrcs_patch_bounds){0.1, 0.01, 0.01, 0.1};
+    part[0].bounds.reach = 0.01;
     part[1].first_facet = 12;
     part[1].facet_count = 2;
     boxed.part_of[12] = boxed.part_of[13] = 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
+/* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the bounds of patches
    against an integration over each patch that shares nothing with their derivation. */
 #include "mesh/shape/revolution_normals.h"
 #include "mesh/shape/tessellate.h"
@@ -79,19 +79,19 @@ static double volume(const lrcs_mesh *mesh)
 }
 
 static lrcs_mesh make_rings(const lrcs_shape *shape, uint32_t around, uint32_t along,
-                            int level_rings, lrcs_curvature *curvature)
+                            int level_rings, lrcs_patch_bounds *bounds)
 {
     lrcs_divisions divisions = {around, along, level_rings};
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_mesh mesh;
-    assert_int_equal(lrcs_shape_mesh(shape, &divisions, &work, &mesh, curvature), LRCS_OK);
+    assert_int_equal(lrcs_shape_mesh(shape, &divisions, &work, &mesh, bounds), LRCS_OK);
     return mesh;
 }
 
 static lrcs_mesh make(const lrcs_shape *shape, uint32_t around, uint32_t along,
-                      lrcs_curvature *curvature)
+                      lrcs_patch_bounds *bounds)
 {
-    return make_rings(shape, around, along, 0, curvature);
+    return make_rings(shape, around, along, 0, bounds);
 }
 
 typedef struct sample {
@@ -155,7 +155,7 @@ static void areas_and_volumes_tend_to_the_bodys_as_the_square(void **state)
     (void)state;
     for (size_t i = 0; i < SAMPLES; i++) {
         const sample *s = &samples[i];
-        lrcs_curvature c;
+        lrcs_patch_bounds c;
         lrcs_mesh mesh = make(&s->shape, s->around, s->along, &c);
         double h = pi / s->around;
         double most = s->shape.kind == LRCS_SHAPE_BOX ? 1e-15 : 2.0 * h * h;
@@ -295,7 +295,7 @@ static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
                                  {.kind = LRCS_SHAPE_BOX, .size = {1, 2, 3}},
                                  {.kind = LRCS_SHAPE_DISC, .radius = 1}};
     for (int i = 0; i < 3; i++) {
-        lrcs_curvature c = {1.0, 1.0, 1.0, 1.0};
+        lrcs_patch_bounds c = {1.0, 1.0, 1.0, 1.0};
         lrcs_mesh mesh = make(&shapes[i], i < 2 ? 4 : 16, 1, &c);
         check_same(c.turn + c.area_err + c.bias + c.rms_turn, 0.0);
         double n[3];
@@ -377,11 +377,11 @@ static patch patch_integrate(const lrcs_shape *shape, double r0, double r1, doub
 /* Checks the numbers on every strip of a body's wall; `upper` strips, by the radii of its rows. */
 static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
 {
-    lrcs_curvature c;
+    lrcs_patch_bounds c;
     lrcs_mesh mesh = make_rings(shape, around, along, level_rings, &c);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
-    lrcs_curvature seen = {0.0, 0.0, 0.0, 0.0};
+    lrcs_patch_bounds seen = {0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < along; i++) {
         const double *low = mesh.vertex[i * around].x;
         const double *high = mesh.vertex[(i + 1) * around].x;
@@ -797,7 +797,7 @@ static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
         lrcs_shape shape = {.kind = kind};
         shape.half_angle_deg = kind == LRCS_SHAPE_CONE ? 15.0 : 0.0;
         int plane = kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_BOX;
-        lrcs_curvature c;
+        lrcs_patch_bounds c;
         lrcs_mesh mesh = make(&shape, plane ? 4 : 8, 1, &c);
         check_same(group_area(&mesh, 0) + group_area(&mesh, 1), 0.0);
         assert_true(isfinite(c.turn + c.area_err + c.bias + c.rms_turn));
@@ -815,7 +815,7 @@ static void extreme_dimensions_stay_finite(void **state)
         shape.length = shape.kind == LRCS_SHAPE_DOME ? 0.0 : length[i / 28];
         shape.radius2 = shape.kind == LRCS_SHAPE_FRUSTUM ? 1.0 : 0.0;
         uint32_t along = i % 4 < 2 ? 1 : 3;
-        lrcs_curvature c;
+        lrcs_patch_bounds c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
         assert_true(isfinite(c.turn + c.area_err + c.bias + c.rms_turn));
         double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along, 0}).all;

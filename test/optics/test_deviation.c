@@ -62,7 +62,7 @@ static void facet_vector(const lrcs_mesh *mesh, uint32_t i, double out[3])
 }
 
 /* sigma of a convex mesh seen alone, and the sum of the stray bounds of its curved facets. */
-static void facet_sum(const lrcs_mesh *mesh, const lrcs_curvature *curvature, const lrcs_brdf *brdf,
+static void facet_sum(const lrcs_mesh *mesh, const lrcs_patch_bounds *bounds, const lrcs_brdf *brdf,
                       const double s_hat[3], double *sigma, double *bound)
 {
     *sigma = 0.0;
@@ -82,7 +82,7 @@ static void facet_sum(const lrcs_mesh *mesh, const lrcs_curvature *curvature, co
         *sigma += c > 0.0 ? 2.0 * pi * size * (f.glint + f.diffuse) : 0.0;
         *bound += mesh->facet_smooth[i] == 0
                       ? 0.0
-                      : 2.0 * pi * size * lrcsi_reflect_deviation(brdf, c / size, tan2, curvature);
+                      : 2.0 * pi * size * lrcsi_reflect_deviation(brdf, c / size, tan2, bounds);
     }
 }
 
@@ -118,13 +118,13 @@ static void facets_err_by_less_than_their_bound(void **state)
         }
         lrcs_work work = lrcs_work_make(area, sizeof area);
         lrcs_mesh mesh;
-        lrcs_curvature curvature;
-        assert_int_equal(lrcs_shape_mesh(&shape, &divisions, &work, &mesh, &curvature), LRCS_OK);
+        lrcs_patch_bounds bounds;
+        assert_int_equal(lrcs_shape_mesh(&shape, &divisions, &work, &mesh, &bounds), LRCS_OK);
         double s_hat[3];
         double sigma = 0.0;
         double bound = 0.0;
         aspect_direction(b->aspect_deg, 0.1 * (double)i, s_hat);
-        facet_sum(&mesh, &curvature, &b->brdf, s_hat, &sigma, &bound);
+        facet_sum(&mesh, &bounds, &b->brdf, s_hat, &sigma, &bound);
         double rounding = 1e-9 * (fabs(b->sigma) + sigma);
         double error = fabs(sigma - b->sigma);
         if (!(error <= bound + rounding)) {
@@ -187,7 +187,7 @@ static void a_round_cap_of_normals_errs_by_less_than_its_bound(void **state)
             square += weight * t * t;
             sum += weight * f_at(&brdf, theta, t, pi * (k % SPOKES + 0.5) / SPOKES);
         }
-        lrcs_curvature cap = {turn, 0.0, 0.0, sqrt(square / cap_area)};
+        lrcs_patch_bounds cap = {turn, 0.0, 0.0, sqrt(square / cap_area)};
         double slope = tan(theta);
         double here = f_at(&brdf, theta, 0.0, 0.0);
         double bound = lrcsi_reflect_deviation(&brdf, cos(theta), slope * slope, &cap);
@@ -204,7 +204,7 @@ static void a_round_cap_of_normals_errs_by_less_than_its_bound(void **state)
 static void a_flat_patch_has_no_deviation(void **state)
 {
     (void)state;
-    const lrcs_curvature flat = {0.0, 0.0, 0.0, 0.0};
+    const lrcs_patch_bounds flat = {0.0, 0.0, 0.0, 0.0};
     const lrcs_brdf brdf = {1.0, 1.0, 1e-6, 1e4};
     check_same(lrcsi_reflect_deviation(&brdf, 1.0, 0.0, &flat), 0.0);
     check_same(lrcsi_reflect_deviation(&brdf, 0.0, HUGE_VAL, &flat), 0.0);
@@ -213,7 +213,7 @@ static void a_flat_patch_has_no_deviation(void **state)
 static void a_patch_wholly_turned_away_has_no_error(void **state)
 {
     (void)state;
-    const lrcs_curvature c = {0.1, 0.01, 0.001, 0.05};
+    const lrcs_patch_bounds c = {0.1, 0.01, 0.001, 0.05};
     const lrcs_brdf brdf = {1.0, 1.0, 0.3, 0.0};
     double t = tan(0.5 * pi - 0.11);
     check_same(lrcsi_reflect_deviation(&brdf, -0.11, t * t, &c), 0.0);
@@ -234,8 +234,8 @@ static void no_corner_of_the_domain_gives_nan_or_less_than_zero(void **state)
         double t = turn[i / 135 % 6];
         double u = tan2[i / 810 % 9];
         double c = (i / 7290 ? -1.0 : 1.0) / sqrt(1.0 + u);
-        lrcs_curvature curvature = {t, 0.1, 0.1 * t, 0.5 * t};
-        double deviation = lrcsi_reflect_deviation(&brdf, c, u, &curvature);
+        lrcs_patch_bounds bounds = {t, 0.1, 0.1 * t, 0.5 * t};
+        double deviation = lrcsi_reflect_deviation(&brdf, c, u, &bounds);
         assert_true(deviation >= 0.0); /* no NaN either */
         if (brdf.s < 1e70 && t < 3.0 && u < 1e30) {
             assert_true(isfinite(deviation) || brdf.s > 0.5);
@@ -252,7 +252,7 @@ static void a_finer_patch_deviates_less(void **state)
         double t = tan(theta);
         double last = HUGE_VAL;
         for (double turn = 1.0; turn > 1e-6; turn *= 0.5) {
-            lrcs_curvature c = {turn, turn * turn / 6.0, turn * turn / 6.0, 0.6 * turn};
+            lrcs_patch_bounds c = {turn, turn * turn / 6.0, turn * turn / 6.0, 0.6 * turn};
             double deviation = lrcsi_reflect_deviation(&brdf, cos(theta), t * t, &c);
             check_most(deviation, last);
             last = deviation;
@@ -299,9 +299,9 @@ static void each_number_of_a_curvature_counts_for_itself(void **state)
     lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
     double f = lrcsi_reflect(&brdf, 0.01, 0).glint + lrcsi_reflect(&brdf, 0.01, 0).diffuse;
     double cosine = 1 / sqrt(1.01);
-    const lrcs_curvature larger = {0, 0.125, 0, 0};
-    const lrcs_curvature leaning = {0, 0, 0.125, 0}; /* all normals alike: they lean nowhere */
-    const lrcs_curvature spread = {0, 0, 0, 0.125};
+    const lrcs_patch_bounds larger = {0, 0.125, 0, 0};
+    const lrcs_patch_bounds leaning = {0, 0, 0.125, 0}; /* all normals alike: they lean nowhere */
+    const lrcs_patch_bounds spread = {0, 0, 0, 0.125};
     double deviation = lrcsi_reflect_deviation(&brdf, cosine, 0.01, &larger);
     assert_true(deviation >= 0.125 * f && deviation <= 0.126 * f);
     check_same(lrcsi_reflect_deviation(&brdf, cosine, 0.01, &leaning), 0.0);
@@ -313,7 +313,7 @@ static void a_patch_nearly_edge_on_deviates_by_what_it_reflects(void **state)
 {
     (void)state;
     lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
-    const lrcs_curvature c = {0.1, 0.001, 0.001, 0.06};
+    const lrcs_patch_bounds c = {0.1, 0.001, 0.001, 0.06};
     lrcsi_deviation deviation = lrcsi_deviation_make(&brdf, 1e-200, HUGE_VAL, &c);
     double t = 1 / tan(0.1);
     lrcsi_reflection f = lrcsi_reflect(&brdf, t * t, 0);

@@ -26,7 +26,7 @@ static const lrcs_shape bodies[] = {
 #define BODIES (sizeof bodies / sizeof bodies[0])
 
 /* Sums over the facets from a direction: sigma, proved error, and the area. */
-static void facet_sums(const lrcs_mesh *mesh, const lrcs_curvature *curvature,
+static void facet_sums(const lrcs_mesh *mesh, const lrcs_patch_bounds *bounds,
                        const lrcs_brdf *brdf, const double s_hat[3], double sum[3])
 {
     sum[0] = sum[1] = sum[2] = 0.0;
@@ -53,7 +53,7 @@ static void facet_sums(const lrcs_mesh *mesh, const lrcs_curvature *curvature,
         double tan2 = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / (c * c);
         lrcsi_reflection f = lrcsi_reflect(brdf, tan2, 0.0);
         sum[0] += c > 0.0 ? 2.0 * pi * size * (f.glint + f.diffuse) : 0.0;
-        sum[1] += 2.0 * pi * size * lrcsi_reflect_deviation(brdf, c / size, tan2, curvature);
+        sum[1] += 2.0 * pi * size * lrcsi_reflect_deviation(brdf, c / size, tan2, bounds);
         sum[2] += 0.5 * size;
     }
 }
@@ -85,7 +85,7 @@ static void the_planned_mesh_proves_the_tolerance(void **state)
         assert_int_equal(lrcs_shape_count(&bodies[i / 3], &fineness, &divisions, &counts), LRCS_OK);
         lrcs_work work = lrcs_work_make(area, sizeof area);
         lrcs_mesh mesh;
-        lrcs_curvature c;
+        lrcs_patch_bounds c;
         assert_int_equal(lrcs_shape_mesh(&bodies[i / 3], &divisions, &work, &mesh, &c), LRCS_OK);
         assert_int_equal(mesh.vertex_count, counts.vertices);
         assert_int_equal(mesh.facet_count, counts.facets);

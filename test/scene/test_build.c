@@ -106,7 +106,7 @@ static void a_model_in_the_default_place_keeps_every_bit(void **state)
     assert_memory_equal(scene.facet_smooth, tetra_smooth, sizeof tetra_smooth);
     assert_int_equal(scene.part_count, 1);
     assert_int_equal(scene.part[0].kind, -1);
-    assert_int_equal(scene.part[0].curvature_known, 1);
+    assert_int_equal(scene.part[0].bounds.known, 1);
     assert_int_equal(scene.part[0].solid, 0);
     assert_int_equal(scene.part[0].articulated, 0);
     assert_string_equal(scene.part[0].name, "a");
@@ -234,17 +234,17 @@ static void shapes_say_what_they_are(void **state)
         assert_int_equal(scene.part[0].kind, want[i].kind);
         assert_int_equal(scene.part[0].solid, want[i].solid);
         assert_int_equal(scene.part[0].convex_patch, 1);
-        assert_int_equal(scene.part[0].curvature_known, 1);
-        assert_int_equal(scene.part[0].curvature.turn > 0.0, want[i].curved);
+        assert_int_equal(scene.part[0].bounds.known, 1);
+        assert_int_equal(scene.part[0].bounds.patch.turn > 0.0, want[i].curved);
         check_same(scene.part[0].min_extent, 0.5 * want[i].min_extent);
-        check_most(scene.part[0].position_err, 1e-12);
+        check_most(scene.part[0].bounds.position_err, 1e-12);
         free(area);
         part.place.scale[1] = 0.25; /* not uniform: patches are stretched unevenly */
         part.shape.parts =
             part.shape.kind == LRCS_SHAPE_CYLINDER ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
         assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
-        assert_int_equal(scene.part[0].curvature_known, 1);
-        assert_int_equal(scene.part[0].stretch_err > 0.0, want[i].curved);
+        assert_int_equal(scene.part[0].bounds.known, 1);
+        assert_int_equal(scene.part[0].bounds.stretch_err > 0.0, want[i].curved);
         assert_int_equal(scene.part[0].convex_patch, 1);
         check_same(scene.part[0].min_extent, 0.25 * want[i].min_extent);
         assert_int_equal(scene.part[0].solid,
@@ -263,7 +263,7 @@ static void nothing_is_known_of_a_ball_placed_by_no_rotation(void **state)
     void *area;
     part.place.rotate[0][1] = 2.0;
     assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
-    assert_int_equal(scene.part[0].curvature_known, 0);
+    assert_int_equal(scene.part[0].bounds.known, 0);
     assert_int_equal(scene.part[0].rigid, 0);
     static unsigned char bytes[1u << 26];
     lrcs_work work = lrcs_work_make(bytes, sizeof bytes);
@@ -338,9 +338,9 @@ static void misplacement_bounds_what_rounding_does(void **state)
             }
             least = fmin(least, sqrt((double)off));
         }
-        check_most(least, scene.part[0].position_err);
+        check_most(least, scene.part[0].bounds.position_err);
     }
-    check_most(scene.part[0].position_err, 1e-9);
+    check_most(scene.part[0].bounds.position_err, 1e-9);
     free(area);
 }
 

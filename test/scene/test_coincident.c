@@ -155,7 +155,7 @@ static void facets_of_curved_shapes_are_no_copies(void **state)
     for (int reach = 0; reach < 2; reach++) {
         lrcs_work work;
         scene_start(&scene);
-        scene.part.reach = 0.01 * reach;
+        scene.part.bounds.reach = 0.01 * reach;
         add_copy(0, 0);
         add_copy(1, 0);
         const lrcs_prepared *p = scene_prepare(&scene, &work);

@@ -11,9 +11,8 @@ static void curvature_outlives_uniform_scaling_only(void **state)
     const lrcs_shape shape = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1};
     const lrcs_divisions divisions = {8, 1, 0};
     for (int i = 0; i < 10; i++) {
-        lrcs_curvature curvature = {0, 0, 0, 0};
-        double *const number[] = {&curvature.turn, &curvature.area_err, &curvature.bias,
-                                  &curvature.rms_turn};
+        lrcs_patch_bounds bounds = {0, 0, 0, 0};
+        double *const number[] = {&bounds.turn, &bounds.area_err, &bounds.bias, &bounds.rms_turn};
         lrcs_place place = lrcs_place_default();
         lrcs_joint joint = {0};
         lrcsi_placer placer;
@@ -25,8 +24,8 @@ static void curvature_outlives_uniform_scaling_only(void **state)
             *number[i % 5] = 1e-3;
         }
         assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
-        lrcsi_placed_shape_describe(&shape, &divisions, &curvature, &placer, 1, &part);
-        assert_int_equal(part.curvature_known, 1);
+        lrcsi_placed_shape_describe(&shape, &divisions, &bounds, &placer, 1, &part);
+        assert_int_equal(part.bounds.known, 1);
     }
 }
 

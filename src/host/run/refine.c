@@ -52,7 +52,7 @@ struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
 {
     int curved = 0;
     for (uint32_t i = 0; i < scene->scene.part_count; i++) {
-        curved |= scene->scene.part[i].reach > 0.0;
+        curved |= scene->scene.part[i].bounds.reach > 0.0;
     }
     if (!curved || !(build->division > 0.0)) {
         return NULL;
@@ -136,8 +136,8 @@ static void choices_start(const lrcs_scene *scene, const lrcs_run_options *optio
         const lrcs_part *part = &scene->part[i];
         double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
         double growth = lrcsi_shape_is_round(part->kind) ? 2.0 : sqrt(2.0);
-        choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count, growth,
-                                  !(part->reach > 0.0)};
+        choice[i] = (part_choice){part->bounds.reach > 0.0 ? error : 0.0, part->facet_count, growth,
+                                  !(part->bounds.reach > 0.0)};
         sum += choice[i].error;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {

@@ -197,9 +197,9 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
             const lrcs_part *part = &scene->part[i];
             uint32_t material =
                 part->facet_count > 0 ? scene->facet_material[part->first_facet] : 0;
-            if (part->kind >= 0 && part->facet_count > 0 && part->curvature.turn > 0.0 &&
+            if (part->kind >= 0 && part->facet_count > 0 && part->bounds.patch.turn > 0.0 &&
                 scene->material[material].brdf.A > 0.0) {
-                all[used++] = glint_entry(scene, i, material, 2.0 * part->curvature.turn);
+                all[used++] = glint_entry(scene, i, material, 2.0 * part->bounds.patch.turn);
             }
         }
         qsort(all, used, sizeof *all, entry_order);

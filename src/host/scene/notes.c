@@ -47,7 +47,7 @@ int lrcs_host_scene_tessellated(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
-        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
+        if (part->kind >= 0 && (part->bounds.patch.turn > 0.0 || !part->bounds.known)) {
             return 1;
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies of revolution as facets: the positions of the rows of vertices, and the curvature numbers
+/* Bodies of revolution as facets: the positions of the rows of vertices, and the bounds of patches
    of the facets between them. It makes no mesh (tessellate.c does), and does not say how far facets
    are from the true surface (revolution_reach.c), nor how its normals vary over them
    (revolution_normals.c).
@@ -39,7 +39,7 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/shape/curvature.h"
+#include "mesh/shape/patch_bounds.h"
 
 /* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
    is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
@@ -208,12 +208,12 @@ double lrcsi_revolution_rounding(const lrcsi_revolution *body, uint32_t i)
     return rounding;
 }
 
-static lrcs_curvature ring_curvature(const lrcsi_revolution *body, uint32_t i)
+static lrcs_patch_bounds ring_patch_bounds(const lrcsi_revolution *body, uint32_t i)
 {
     lrcsi_ring s = lrcsi_ring_make(body, i);
     double across = s.gain * s.across; /* X' */
     double facet = hypot(across, s.up);
-    lrcs_curvature c = {0.0, 0.0, 0.0, 0.0};
+    lrcs_patch_bounds c = {0.0, 0.0, 0.0, 0.0};
     if (!(facet > 0.0)) { /* no area: no error */
         return c;
     }
@@ -233,8 +233,8 @@ static lrcs_curvature ring_curvature(const lrcsi_revolution *body, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.bias = fabs(shift) + c.turn * c.rms_turn * c.rms_turn / 6.0;
     c.area_err = fabs(ratio - 1.0);
-    return lrcsi_curvature_rounded(&c, lrcsi_revolution_rounding(body, i) * (1.0 + c.area_err) +
-                                           LRCSI_REVOLUTION_SLACK);
+    return lrcsi_patch_bounds_rounded(&c, lrcsi_revolution_rounding(body, i) * (1.0 + c.area_err) +
+                                              LRCSI_REVOLUTION_SLACK);
 }
 
 lrcsi_revolution lrcsi_revolution_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -295,11 +295,11 @@ double lrcsi_revolution_rise(const lrcsi_revolution *body, uint32_t i)
     return body->level_rings ? lrcsi_revolution_level_rise(body, i) : mean_rise(body, i);
 }
 
-lrcs_curvature lrcsi_revolution_curvature(const lrcsi_revolution *body)
+lrcs_patch_bounds lrcsi_revolution_patch_bounds(const lrcsi_revolution *body)
 {
-    lrcs_curvature bound = {0.0, 0.0, 0.0, 0.0};
+    lrcs_patch_bounds bound = {0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < body->rings; i++) {
-        lrcs_curvature c = ring_curvature(body, i);
+        lrcs_patch_bounds c = ring_patch_bounds(body, i);
         bound.turn = fmax(bound.turn, c.turn);
         bound.area_err = fmax(bound.area_err, c.area_err);
         bound.bias = fmax(bound.bias, c.bias);

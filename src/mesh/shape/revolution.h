@@ -44,8 +44,8 @@ double lrcsi_revolution_radius(const lrcsi_revolution *body, uint32_t i);
 /* The height of row i + 1 of the mesh above row i, m. */
 double lrcsi_revolution_rise(const lrcsi_revolution *body, uint32_t i);
 
-/* The numbers of lrcs_curvature, proved, over all facets of the wall. */
-lrcs_curvature lrcsi_revolution_curvature(const lrcsi_revolution *body);
+/* The numbers of lrcs_patch_bounds, proved, over all facets of the wall. */
+lrcs_patch_bounds lrcsi_revolution_patch_bounds(const lrcsi_revolution *body);
 
 /* An upper bound of the angle (rad) by which rounding of the vertices rotates the facets between
    rows i and i + 1, and of the relative change of their areas. */

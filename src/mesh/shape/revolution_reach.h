@@ -7,7 +7,7 @@
 
 /* Upper bounds of distances, m. The first four: how far a map of the true surface onto the facets
    moves points. The map takes every facet's patch to it, and stretches area evenly over a facet
-   (before any lrcsi_curvature_mapped). The others are Hausdorff distances: how far any point of
+   (before any lrcsi_patch_bounds_mapped). The others are Hausdorff distances: how far any point of
    either set is from the nearest point of the other. */
 typedef struct lrcsi_reach {
     double all;    /* any point, caps included */

@@ -372,13 +372,14 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
                               .text_bytes = strlen(lrcs_shape_text(shape->kind)) + 1};
 }
 
-lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions)
+lrcs_patch_bounds lrcsi_tessellate_patch_bounds(const lrcs_shape *shape,
+                                                const lrcs_divisions *divisions)
 {
     if (lrcsi_shape_is_plane_faced(shape->kind)) {
-        return (lrcs_curvature){0.0, 0.0, 0.0, 0.0};
+        return (lrcs_patch_bounds){0.0, 0.0, 0.0, 0.0};
     }
     lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);
-    return lrcsi_revolution_curvature(&body);
+    return lrcsi_revolution_patch_bounds(&body);
 }
 
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -391,7 +392,7 @@ lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions
 }
 
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
-                    lrcs_mesh *mesh, lrcs_curvature *curvature)
+                    lrcs_mesh *mesh, lrcs_patch_bounds *bounds)
 {
     if (lrcs_shape_check(shape, NULL) != LRCS_OK || !lrcsi_tessellate_fits(shape, divisions)) {
         return LRCS_E_ARGUMENT;
@@ -413,8 +414,8 @@ int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
         revolve(shape, divisions, &made);
     }
     *mesh = made;
-    if (curvature) {
-        *curvature = lrcsi_tessellate_curvature(shape, divisions);
+    if (bounds) {
+        *bounds = lrcsi_tessellate_patch_bounds(shape, divisions);
     }
     return LRCS_OK;
 }

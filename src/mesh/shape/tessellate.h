@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sizes and curvature of a shape's mesh before it is made. */
+/* Sizes of a shape's mesh before it is made. */
 #ifndef LRCSI_TESSELLATE_H
 #define LRCSI_TESSELLATE_H
 
@@ -16,8 +16,9 @@ int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisio
 /* The counts of the mesh, for valid divisions. */
 lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* The curvature that lrcs_shape_mesh will report. O(along). */
-lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
+/* The bounds that lrcs_shape_mesh will report. O(along). */
+lrcs_patch_bounds lrcsi_tessellate_patch_bounds(const lrcs_shape *shape,
+                                                const lrcs_divisions *divisions);
 
 /* The distances of lrcsi_revolution_reach; 0 for plate and box. O(along). */
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);

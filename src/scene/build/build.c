@@ -294,8 +294,8 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
 {
     size_t mark = work->used;
     lrcs_mesh mesh;
-    lrcs_curvature curvature;
-    int status = lrcs_shape_mesh(&source->part->shape, divisions, work, &mesh, &curvature);
+    lrcs_patch_bounds bounds;
+    int status = lrcs_shape_mesh(&source->part->shape, divisions, work, &mesh, &bounds);
     if (status != LRCS_OK) {
         return status == LRCS_E_MEMORY
                    ? refuse_memory(builder)
@@ -303,8 +303,8 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
     }
     lrcs_part *part = &scene->part[scene->part_count];
     double extent = lrcsi_placed_shape_extent(&mesh);
-    lrcsi_placed_shape_describe(&source->part->shape, divisions, &curvature, &source->placer,
-                                extent, part);
+    lrcsi_placed_shape_describe(&source->part->shape, divisions, &bounds, &source->placer, extent,
+                                part);
     status = add_mesh(builder, &mesh, source, scene);
     if (status == LRCS_OK) {
         lrcsi_placed_shape_normal_err(&source->placer, scene, extent, part);
@@ -334,7 +334,7 @@ static int add_part(scene_builder *builder, uint32_t i, const lrcs_divisions *di
     }
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
-    part->curvature_known = 1;
+    part->bounds.known = 1;
     part->smoothed = lrcsi_smooth_given(&builder->models[i]);
     status = add_mesh(builder, &builder->models[i], &source, scene);
     if (status != LRCS_OK || !gives_normals(builder, i)) {

@@ -10,7 +10,7 @@
 #include "base/degrees.h"
 #include "base/length.h"
 #include "base/vec3.h"
-#include "mesh/shape/curvature.h"
+#include "mesh/shape/patch_bounds.h"
 #include "mesh/shape/tessellate.h"
 
 /* Rounds a bound up by more than the few operations that compute it can round it down. */
@@ -90,44 +90,45 @@ static double smallest_altitude(const lrcs_scene *scene, const lrcs_part *part)
 
 /* Rounding in placing moves each of a facet's three corners by at most e. That rotates the facet by
    at most e divided by its altitude at that corner, and changes its area by at most that fraction.
-   The curvature numbers are relative to the area of the facet; that of its patch is larger by at
+   The bounds of patches are relative to the area of the facet; that of its patch is larger by at
    most area_err. Nothing can be proved about a facet without area. */
 void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene *scene,
                                    double extent, lrcs_part *part)
 {
     double e = lrcsi_placer_error(placer, extent, 0.0);
-    if (part->reach > 0.0 && e > 0.0) {
-        double factor = 3.0 * (1.0 + part->curvature.area_err);
+    if (part->bounds.reach > 0.0 && e > 0.0) {
+        double factor = 3.0 * (1.0 + part->bounds.patch.area_err);
         double altitude = smallest_altitude(scene, part);
-        part->normal_err = ROUNDED_UP * factor * e / altitude;
-        part->curvature_known = part->curvature_known && altitude > 0.0;
-        part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_curvature_rounded(&part->curvature, part->normal_err)
-                              : part->curvature;
+        part->bounds.normal_err = ROUNDED_UP * factor * e / altitude;
+        part->bounds.known = part->bounds.known && altitude > 0.0;
+        part->bounds.patch =
+            part->bounds.patch.turn > 0.0
+                ? lrcsi_patch_bounds_rounded(&part->bounds.patch, part->bounds.normal_err)
+                : part->bounds.patch;
     }
 }
 
-/* A uniform scale does not change the curvature numbers; other scales change them as in
-   mesh/shape/curvature.h. Every affine map preserves convexity, and the outside stays outside,
+/* A uniform scale does not change the bounds of patches; other scales change them as in
+   mesh/shape/patch_bounds.h. Every affine map preserves convexity, and the outside stays outside,
    because a reflection reverses the windings. The coordinates of the mesh have a relative error of
    (16 + rings) u before placing (mesh/shape/revolution.c), except for underflow. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
-                                 const lrcs_curvature *curvature, const lrcsi_placer *placer,
+                                 const lrcs_patch_bounds *bounds, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part)
 {
     const double *scale = placer->place.scale;
     lrcsi_reach reach = lrcsi_tessellate_reach(shape, divisions);
     double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    int plane = curvature->turn == 0.0 && curvature->area_err == 0.0 && curvature->bias == 0.0 &&
-                curvature->rms_turn == 0.0;
+    int plane = bounds->turn == 0.0 && bounds->area_err == 0.0 && bounds->bias == 0.0 &&
+                bounds->rms_turn == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
     double norm; /* largest singular value */
     double condition;
     lrcsi_axes axes;
     lrcsi_placer_singular_values(placer, &norm, &condition);
     double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
-    part->position_err = lrcsi_placer_error(placer, extent + error, error);
+    part->bounds.position_err = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
     part->rigid = lrcsi_placer_axes(placer, &axes);
     if (part->rigid) {
@@ -140,23 +141,24 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->divisions = *divisions;
     part->unit = largest;
     lrcsi_placer_run(placer, zero, part->origin);
-    part->curvature = *curvature;
-    part->curvature_known = plane || condition < HUGE_VAL;
-    if (!plane && !part->rigid && part->curvature_known) {
-        part->curvature = lrcsi_curvature_mapped(curvature, condition, &part->stretch_err);
+    part->bounds.patch = *bounds;
+    part->bounds.known = plane || condition < HUGE_VAL;
+    if (!plane && !part->rigid && part->bounds.known) {
+        part->bounds.patch =
+            lrcsi_patch_bounds_mapped(bounds, condition, &part->bounds.stretch_err);
     }
     part->convex_patch = 1;
     part->min_extent = smallest * smallest_extent(shape);
     part->solid = is_closed(shape) && part->min_extent > 0.0;
     if (reach.all > 0.0) {
         double scaled = ROUNDED_UP * norm;
-        double placed = 2.0 * part->position_err;
-        part->reach = scaled * reach.all + placed;
-        part->hausdorff =
+        double placed = 2.0 * part->bounds.position_err;
+        part->bounds.reach = scaled * reach.all + placed;
+        part->bounds.hausdorff =
             scaled * (part->solid || shape->kind == LRCS_SHAPE_DISC ? reach.solid : reach.surface) +
             placed;
-        part->displacement[0] = scaled * reach.radial + placed;
-        part->displacement[1] = scaled * reach.axial + placed;
-        part->displacement[2] = scaled * reach.tangential + placed;
+        part->bounds.displacement[0] = scaled * reach.radial + placed;
+        part->bounds.displacement[1] = scaled * reach.axial + placed;
+        part->bounds.displacement[2] = scaled * reach.tangential + placed;
     }
 }

@@ -13,13 +13,13 @@ int lrcsi_placed_shape_closed_form(const lrcs_shape *shape, int two_sided);
 double lrcsi_placed_shape_extent(const lrcs_mesh *mesh);
 
 /* First step, before the facets are placed: fills `part`, except normal_err. Given: the `extent`
-   and the curvature of the shape's mesh. */
+   and the bounds of the mesh's patches. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
-                                 const lrcs_curvature *curvature, const lrcsi_placer *placer,
+                                 const lrcs_patch_bounds *bounds, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part);
 
 /* Second step, when the part's facets are in the scene: sets part->normal_err, how far rounding in
-   placing may have rotated their normals, and includes it in the curvature. */
+   placing may have rotated their normals, and includes it in the bounds. */
 void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene *scene,
                                    double extent, lrcs_part *part);
 

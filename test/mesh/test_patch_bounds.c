@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Curvature numbers under linear maps, against patches whose normals are drawn at random and mapped
    one by one. (The numbers before any map: test_tessellate.c.) */
-#include "mesh/shape/curvature.h"
+#include "mesh/shape/patch_bounds.h"
 
 #include "check.h"
 #include "random.h"
@@ -30,10 +30,10 @@ static void unit(double v[3])
 }
 
 /* The numbers of a facet of area 1, by their definition, from pieces of patch. */
-static lrcs_curvature measure(const double facet[3], double normal[NORMALS][3],
-                              const double area[NORMALS])
+static lrcs_patch_bounds measure(const double facet[3], double normal[NORMALS][3],
+                                 const double area[NORMALS])
 {
-    lrcs_curvature c = {0, 0, 0, 0};
+    lrcs_patch_bounds c = {0, 0, 0, 0};
     double sum = 0;
     double square = 0;
     double vector[3] = {0, 0, 0};
@@ -85,8 +85,8 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
             }
             unit(normal[i]);
         }
-        lrcs_curvature before = measure(facet, normal, area);
-        lrcs_curvature bound = lrcsi_curvature_mapped(&before, most / least, &uneven);
+        lrcs_patch_bounds before = measure(facet, normal, area);
+        lrcs_patch_bounds bound = lrcsi_patch_bounds_mapped(&before, most / least, &uneven);
         double whole = 0;
         for (int k = 0; k < 3; k++) {
             whole += facet[k] * facet[k] / scale[k] / scale[k];
@@ -107,7 +107,7 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
             facet[k] /= scale[k];
         }
         unit(facet);
-        lrcs_curvature after = measure(facet, normal, area);
+        lrcs_patch_bounds after = measure(facet, normal, area);
         check_most(after.turn, bound.turn + 1e-14);
         check_most(after.area_err, bound.area_err + 1e-14);
         check_most(after.bias, bound.bias + 1e-14);
