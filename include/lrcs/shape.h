@@ -104,8 +104,8 @@ lrcs_fineness lrcs_fineness_default(void);
 /* Divisions of a shape's mesh, chosen by lrcs_shape_count, used by lrcs_shape_mesh. */
 typedef struct lrcs_divisions {
     uint32_t around; /* sectors: a multiple of 4, 8 .. 2^24; 4 for plate and box */
-    uint32_t along;  /* rings of a dome, a paraboloid, half a sphere: 1 .. 2^24; 1 otherwise */
-    int level_rings; /* of these: 1: rings are at the heights of true circles; 0: at heights for
+    uint32_t along;  /* zones of a dome, a paraboloid, half a sphere: 1 .. 2^24; 1 otherwise */
+    int level_zones; /* of these: 1: zones are at the heights of true circles; 0: at heights for
                         which each facet's normal is the mean normal of its patch */
 } lrcs_divisions;
 

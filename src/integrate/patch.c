@@ -227,7 +227,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
     f->phi = (2.0 * at->sector + 1.0) * body.half;
     f->fourth = part->kind == LRCS_SHAPE_PARABOLOID;
     f->step = 0.5 * body.step;
-    f->alpha = (2.0 * (double)(body.rings - at->row) - 1.0) * f->step;
+    f->alpha = (2.0 * (double)(body.zones - at->row) - 1.0) * f->step;
     if (body.step > 0) {
         double radius = (f->fourth ? body.base / body.slope : body.base) * unit;
         f->sine = sin(f->alpha);

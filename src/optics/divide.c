@@ -177,7 +177,7 @@ static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
     return worst;
 }
 
-/* Rings as wide as the sectors are at the widest. */
+/* Zones as wide as the sectors are at the widest. */
 static lrcs_divisions divisions_for(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1, 0};

@@ -9,7 +9,7 @@
    P; those in between separate parts that stand on one another.
 
    If both parts touch the plane, P may be hidden within a slab at its lowest end. The area of P's
-   lit surface in it, `slab`, is known if n is P's own axis (rings of the wall; the end there is a
+   lit surface in it, `slab`, is known if n is P's own axis (zones of the wall; the end there is a
    plane with the normal -n, which faces away from the laser or is within 16 u of edge-on) or if P
    is a sphere (a zone, for every n). */
 #include "view/clear.h"

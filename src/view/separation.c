@@ -13,10 +13,10 @@
        e = e_P + e_Q + LENGTH max(0, 8 u - n . d).
    If the gap is zero up to e, only points of P within 2 e of its lowest end may be hidden.
 
-   Facets. The mesh of a curved shape whose rings are level has its vertices at the heights of the
+   Facets. The mesh of a curved shape whose zones are level has its vertices at the heights of the
    true surface, at radii that are larger by vertex_ratio (mesh/shape/revolution.h): they lie in the
    true solid stretched by that ratio across the axis, whose support along n is that of the true
-   solid along n stretched in the same way. If the rings are not level, every facet is within the
+   solid along n stretched in the same way. If the zones are not level, every facet is within the
    Hausdorff distance of the true solid. */
 #include "view/separation.h"
 
@@ -63,7 +63,7 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
         double size = 0;
         body.solid = lrcsi_body_solid(p, index);
         body.vertex_ratio = shape.vertex_ratio;
-        body.beyond = shape.step > 0 && !shape.level_rings
+        body.beyond = shape.step > 0 && !shape.level_zones
                           ? ldexp(part->bounds.hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)
                           : 0;
         for (int k = 0; k < 3; k++) {

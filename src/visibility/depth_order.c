@@ -11,7 +11,7 @@
    part in front that may be hidden, and those of the part behind that a point may seem to hide
    although it is behind them (the same proof, with the roles exchanged). On a part without curved
    surfaces a facet is the true surface. On a curved part such a plane is used only across its own
-   axis, and if its rings are level: then a facet and its patch extend over the same heights, and
+   axis, and if its zones are level: then a facet and its patch extend over the same heights, and
    the area of the true surface in a slab is known (lrcsi_body_slab). */
 #include "visibility/depth_order.h"
 

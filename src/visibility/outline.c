@@ -37,7 +37,7 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
         return o;
     }
     lrcsi_revolution shape = lrcsi_revolution_make(&part->shape, &part->divisions);
-    if (shape.step > 0 && !shape.level_rings) {
+    if (shape.step > 0 && !shape.level_zones) {
         return o; /* its vertices are not at the true heights */
     }
     double far = 0;

@@ -142,7 +142,7 @@ static void building_grows_until_it_fits(void **state)
 {
     (void)state;
     setup();
-    const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two rings and a base, at most */
+    const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two zones and a base, at most */
     starve(STARVED("shape", lrcs_mesh_need(&dome), call_shape, out.mesh, 1));
     starve(STARVED("check", lrcs_mesh_check_need(scene.vertex_count, scene.facet_count), call_check,
                    out.report, 0));

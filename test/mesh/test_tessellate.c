@@ -78,10 +78,10 @@ static double volume(const lrcs_mesh *mesh)
     return sum;
 }
 
-static lrcs_mesh make_rings(const lrcs_shape *shape, uint32_t around, uint32_t along,
-                            int level_rings, lrcs_patch_bounds *bounds)
+static lrcs_mesh make_zones(const lrcs_shape *shape, uint32_t around, uint32_t along,
+                            int level_zones, lrcs_patch_bounds *bounds)
 {
-    lrcs_divisions divisions = {around, along, level_rings};
+    lrcs_divisions divisions = {around, along, level_zones};
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_mesh mesh;
     assert_int_equal(lrcs_shape_mesh(shape, &divisions, &work, &mesh, bounds), LRCS_OK);
@@ -91,7 +91,7 @@ static lrcs_mesh make_rings(const lrcs_shape *shape, uint32_t around, uint32_t a
 static lrcs_mesh make(const lrcs_shape *shape, uint32_t around, uint32_t along,
                       lrcs_patch_bounds *bounds)
 {
-    return make_rings(shape, around, along, 0, bounds);
+    return make_zones(shape, around, along, 0, bounds);
 }
 
 typedef struct sample {
@@ -375,10 +375,10 @@ static patch patch_integrate(const lrcs_shape *shape, double r0, double r1, doub
 }
 
 /* Checks the numbers on every strip of a body's wall; `upper` strips, by the radii of its rows. */
-static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
+static void check_zones(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_zones)
 {
     lrcs_patch_bounds c;
-    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, &c);
+    lrcs_mesh mesh = make_zones(shape, around, along, level_zones, &c);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     lrcs_patch_bounds seen = {0.0, 0.0, 0.0, 0.0};
@@ -408,8 +408,8 @@ static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along
 
 static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)
 {
-    check_rings(shape, around, along, 0);
-    check_rings(shape, around, along, 1);
+    check_zones(shape, around, along, 0);
+    check_zones(shape, around, along, 1);
 }
 
 static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
@@ -422,7 +422,7 @@ static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
         .kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 0.05, .parts = LRCS_SHAPE_WALL};
     const lrcs_shape needle = {
         .kind = LRCS_SHAPE_PARABOLOID, .radius = 0.1, .length = 2, .parts = LRCS_SHAPE_WALL};
-    const lrcs_shape ring = {.kind = LRCS_SHAPE_FRUSTUM,
+    const lrcs_shape zone = {.kind = LRCS_SHAPE_FRUSTUM,
                              .radius = 0.5,
                              .radius2 = 1,
                              .length = 0.7,
@@ -440,8 +440,8 @@ static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
     check_strips(&flat, 24, 1);
     check_strips(&flat, 24, 3);
     check_strips(&needle, 48, 12);
-    check_strips(&ring, 8, 1);
-    check_strips(&ring, 64, 1);
+    check_strips(&zone, 8, 1);
+    check_strips(&zone, 64, 1);
     check_strips(&funnel, 16, 1);
 }
 
@@ -476,12 +476,12 @@ static void true_point(const lrcs_shape *shape, double lower, double upper, doub
 /* The map of mesh/shape/revolution.c from the true surface onto the facets, point by point over a
  * sector.
  */
-static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
+static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_zones)
 {
     enum { STEPS = 24 };
-    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    lrcs_mesh mesh = make_zones(shape, around, along, level_zones, NULL);
     lrcsi_reach reach =
-        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_rings});
+        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_zones});
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     lrcsi_reach seen = {.all = 0.0};
@@ -512,7 +512,7 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
     check_most(seen.radial, reach.radial);
     check_most(seen.axial, reach.axial);
     check_most(seen.tangential, reach.tangential);
-    if (along == 1 || along > 20) { /* and they are not idle, unless rings are coarse */
+    if (along == 1 || along > 20) { /* and they are not idle, unless zones are coarse */
         check_most(reach.all, 4.0 * seen.all + 1e-12);
         check_most(reach.radial, 2.0 * seen.radial + 1e-12);
     }
@@ -520,11 +520,11 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
 
 /* The normals of the true surface beside linear functions of the images of their points, over the
    same map. */
-static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
+static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_zones)
 {
     enum { STEPS = 120 };
-    const lrcs_divisions divisions = {around, along, level_rings};
-    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    const lrcs_divisions divisions = {around, along, level_zones};
+    lrcs_mesh mesh = make_zones(shape, around, along, level_zones, NULL);
     lrcsi_revolution body = lrcsi_revolution_make(shape, &divisions);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
@@ -689,12 +689,12 @@ static double meridian_distance(const lrcs_shape *shape, double lower, double up
 /* Both Hausdorff distances, by distances of points of each surface from the other. Points of a
    patch are compared with the facets of the same sector, in its own strip and the next ones. */
 static void check_hausdorff(const lrcs_shape *shape, uint32_t around, uint32_t along,
-                            int level_rings)
+                            int level_zones)
 {
     enum { STEPS = 7 };
-    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    lrcs_mesh mesh = make_zones(shape, around, along, level_zones, NULL);
     lrcsi_reach reach =
-        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_rings});
+        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_zones});
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     double solid = 0.0;
@@ -773,11 +773,11 @@ static void hausdorff_distances_bound_how_far_the_surfaces_are_from_each_other(v
     }
 }
 
-static void level_rings_are_closer_to_the_true_surface(void **state)
+static void level_zones_are_closer_to_the_true_surface(void **state)
 {
     (void)state;
     const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 2};
-    lrcs_mesh mesh = make_rings(&dome, 64, 40, 1, NULL);
+    lrcs_mesh mesh = make_zones(&dome, 64, 40, 1, NULL);
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         const double *x = mesh.vertex[v].x;
         double h = pi / 64;
@@ -937,7 +937,7 @@ int main(void)
         cmocka_unit_test(reach_bounds_how_far_the_map_onto_facets_moves_points),
         cmocka_unit_test(normals_are_nearly_linear_in_position_on_facets),
         cmocka_unit_test(hausdorff_distances_bound_how_far_the_surfaces_are_from_each_other),
-        cmocka_unit_test(level_rings_are_closer_to_the_true_surface),
+        cmocka_unit_test(level_zones_are_closer_to_the_true_surface),
         cmocka_unit_test(no_dimension_at_all_makes_a_mesh_of_no_area),
         cmocka_unit_test(extreme_dimensions_stay_finite),
         cmocka_unit_test(a_cone_by_half_angle_is_the_cone_by_length),

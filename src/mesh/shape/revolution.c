@@ -8,7 +8,7 @@
    times the true radius rho, and the middles of its sides at kappa = mu cos h times rho. The N-gon
    then has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
 
-   Rings. Two neighbouring rows are joined by planar trapezoids, one for each sector, each cut into
+   Zones. Two neighbouring rows are joined by planar trapezoids, one for each sector, each cut into
    two facets. Its patch is the true surface between the two true circles and the two half-planes of
    the sector; its two facets are coplanar and share that patch in proportion to their areas. Vector
    areas (integral of the normal, in the sector's middle plane) of patch and trapezoid:
@@ -19,7 +19,7 @@
    dz' = 2 / (mu (rho0 + rho1)) Int rho dz, for which it is the same too: then the facet's normal is
    the mean normal of its patch and the first-order error vanishes. Rows of such a body lie on a
    convex curve, because the mean normals of successive patches turn in one direction. The rises add
-   up to more than the height of the true surface, most of it near the apex. With level rings dz' is
+   up to more than the height of the true surface, most of it near the apex. With level zones dz' is
    the true rise, the outward part is that over the other rise times the patch's, and rows lie on
    the meridian stretched by mu across the axis: facets are closer to the true surface, but their
    normals are not those means.
@@ -69,12 +69,12 @@ int lrcsi_revolution_is_straight(const lrcsi_revolution *body)
 
 double lrcsi_revolution_polar(const lrcsi_revolution *body, uint32_t i)
 {
-    return (double)(body->rings - i) * body->step;
+    return (double)(body->zones - i) * body->step;
 }
 
 double lrcsi_revolution_tangent(const lrcsi_revolution *body, uint32_t i)
 {
-    return i == 0 ? body->slope : i == body->rings ? 0.0 : tan(lrcsi_revolution_polar(body, i));
+    return i == 0 ? body->slope : i == body->zones ? 0.0 : tan(lrcsi_revolution_polar(body, i));
 }
 
 double lrcsi_revolution_fraction(const lrcsi_revolution *body, uint32_t i)
@@ -82,17 +82,17 @@ double lrcsi_revolution_fraction(const lrcsi_revolution *body, uint32_t i)
     if (body->slope > 0.0) {
         return lrcsi_revolution_tangent(body, i) / body->slope;
     }
-    return (double)(body->rings - i) / (double)body->rings;
+    return (double)(body->zones - i) / (double)body->zones;
 }
 
-static lrcsi_ring ring_straight(const lrcsi_revolution *body)
+static lrcsi_zone zone_straight(const lrcsi_revolution *body)
 {
     double fall = body->base - body->top;
     double slant = hypot(fall, body->height);
     double unit = slant > 0.0 ? slant : 1.0;
     double elevation = atan2(fall, body->height);
     double sinc = sin(body->half) / body->half;
-    return (lrcsi_ring){.area = slant / unit,
+    return (lrcsi_zone){.area = slant / unit,
                         .across = sinc * body->height / unit,
                         .up = fall / unit,
                         .gain = body->vertex_ratio,
@@ -100,17 +100,17 @@ static lrcsi_ring ring_straight(const lrcsi_revolution *body)
                         .high = elevation};
 }
 
-/* In units of the ring's area: with theta its middle and d its width on the meridian,
+/* In units of the zone's area: with theta its middle and d its width on the meridian,
    A = 2 sin theta sin(d/2), V = A cos theta cos(d/2),
    Int rho dz = ((d - sin d) + 2 sin^2 theta sin d) / 2. */
-static lrcsi_ring ring_round(const lrcsi_revolution *body, uint32_t i)
+static lrcsi_zone zone_round(const lrcsi_revolution *body, uint32_t i)
 {
     double d = body->step;
     double theta = lrcsi_revolution_polar(body, i) - 0.5 * d;
     double sinc = sin(body->half) / body->half;
     double outward =
         angle_minus_sine(d) / (4.0 * sin(theta) * sin(0.5 * d)) + sin(theta) * cos(0.5 * d);
-    return (lrcsi_ring){.area = 1.0,
+    return (lrcsi_zone){.area = 1.0,
                         .across = sinc * outward,
                         .up = cos(theta) * cos(0.5 * d),
                         .gain = 1.0,
@@ -123,7 +123,7 @@ static lrcsi_ring ring_round(const lrcsi_revolution *body, uint32_t i)
    A from Int y sqrt(1 + y^2) dy = (q^3 - p^3)/3 with q, p = sqrt(1 + y^2), r = p/q and
        q - p = (y1^2 - y0^2)/(q + p);
    X = sinc y1 (1 + t + t^2) / 3; V = (1 + t) / 2. */
-static lrcsi_ring ring_paraboloid(const lrcsi_revolution *body, uint32_t i)
+static lrcsi_zone zone_paraboloid(const lrcsi_revolution *body, uint32_t i)
 {
     double y1 = lrcsi_revolution_tangent(body, i);
     double y0 = lrcsi_revolution_tangent(body, i + 1);
@@ -131,7 +131,7 @@ static lrcsi_ring ring_paraboloid(const lrcsi_revolution *body, uint32_t i)
     double q = hypot(1.0, y1);
     double r = hypot(1.0, y0) / q;
     double sinc = sin(body->half) / body->half;
-    return (lrcsi_ring){.area = (1.0 + t) * q * (1.0 + r + r * r) / (3.0 * (1.0 + r)),
+    return (lrcsi_zone){.area = (1.0 + t) * q * (1.0 + r + r * r) / (3.0 * (1.0 + r)),
                         .across = sinc * y1 * (1.0 + t + t * t) / 3.0,
                         .up = 0.5 * (1.0 + t),
                         .gain = 1.0,
@@ -166,18 +166,18 @@ static double mean_rise(const lrcsi_revolution *body, uint32_t i)
     return body->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / body->vertex_ratio;
 }
 
-lrcsi_ring lrcsi_ring_make(const lrcsi_revolution *body, uint32_t i)
+lrcsi_zone lrcsi_zone_make(const lrcsi_revolution *body, uint32_t i)
 {
     if (lrcsi_revolution_is_straight(body)) {
-        return ring_straight(body);
+        return zone_straight(body);
     }
-    lrcsi_ring ring =
-        body->kind == LRCS_SHAPE_PARABOLOID ? ring_paraboloid(body, i) : ring_round(body, i);
-    if (body->level_rings) {
+    lrcsi_zone zone =
+        body->kind == LRCS_SHAPE_PARABOLOID ? zone_paraboloid(body, i) : zone_round(body, i);
+    if (body->level_zones) {
         double rise = mean_rise(body, i);
-        ring.gain = rise > 0.0 ? lrcsi_revolution_level_rise(body, i) / rise : 1.0;
+        zone.gain = rise > 0.0 ? lrcsi_revolution_level_rise(body, i) / rise : 1.0;
     }
-    return ring;
+    return zone;
 }
 
 /* A corner displaced by e rotates its facet by at most e divided by the altitude through that
@@ -192,7 +192,7 @@ double lrcsi_revolution_rounding(const lrcsi_revolution *body, uint32_t i)
     double above = lrcsi_revolution_radius(body, i + 1);
     double kappa = body->vertex_ratio * cos(body->half);
     double slant = hypot(kappa * (below - above), lrcsi_revolution_rise(body, i));
-    double e = (16.0 + (double)body->rings) * LRCSI_U;
+    double e = (16.0 + (double)body->zones) * LRCSI_U;
     double along = 1.0 / sin(body->half);
     double narrow = above > 0.0 ? fmin(below, above) : below;
     double rounding = e * along;
@@ -208,9 +208,9 @@ double lrcsi_revolution_rounding(const lrcsi_revolution *body, uint32_t i)
     return rounding;
 }
 
-static lrcs_patch_bounds ring_patch_bounds(const lrcsi_revolution *body, uint32_t i)
+static lrcs_patch_bounds zone_patch_bounds(const lrcsi_revolution *body, uint32_t i)
 {
-    lrcsi_ring s = lrcsi_ring_make(body, i);
+    lrcsi_zone s = lrcsi_zone_make(body, i);
     double across = s.gain * s.across; /* X' */
     double facet = hypot(across, s.up);
     lrcs_patch_bounds c = {0.0, 0.0, 0.0, 0.0};
@@ -243,13 +243,13 @@ lrcsi_revolution lrcsi_revolution_make(const lrcs_shape *shape, const lrcs_divis
     lrcsi_revolution body = {.kind = shape->kind,
                              .base = shape->radius,
                              .around = divisions->around,
-                             .rings = divisions->along,
-                             .level_rings = divisions->level_rings,
+                             .zones = divisions->along,
+                             .level_zones = divisions->level_zones,
                              .half = h,
                              .vertex_ratio = sqrt(2.0 * h / sin(2.0 * h))};
-    double rings = (double)divisions->along;
+    double zones = (double)divisions->along;
     if (shape->kind == LRCS_SHAPE_DISC) {
-        body.rings = 0;
+        body.zones = 0;
     } else if (shape->kind == LRCS_SHAPE_CYLINDER) {
         body.top = shape->radius;
         body.height = shape->length;
@@ -265,10 +265,10 @@ lrcsi_revolution lrcsi_revolution_make(const lrcs_shape *shape, const lrcs_divis
         body.height = shape->length;
         double slope = shape->radius > 0.0 ? 2.0 * (shape->length / shape->radius) : 0.0;
         body.slope = slope < PARABOLOID_SLOPE_MIN ? 0.0 : fmin(slope, PARABOLOID_SLOPE_MAX);
-        body.step = atan(body.slope) / rings;
+        body.step = atan(body.slope) / zones;
     } else {
         body.height = shape->radius;
-        body.step = 0.5 * LRCS_PI / rings;
+        body.step = 0.5 * LRCS_PI / zones;
     }
     return body;
 }
@@ -278,7 +278,7 @@ double lrcsi_revolution_radius(const lrcsi_revolution *body, uint32_t i)
     if (i == 0) {
         return body->base;
     }
-    if (i == body->rings) {
+    if (i == body->zones) {
         return body->top;
     }
     if (body->kind == LRCS_SHAPE_PARABOLOID) {
@@ -292,14 +292,14 @@ double lrcsi_revolution_rise(const lrcsi_revolution *body, uint32_t i)
     if (lrcsi_revolution_is_straight(body)) {
         return body->height;
     }
-    return body->level_rings ? lrcsi_revolution_level_rise(body, i) : mean_rise(body, i);
+    return body->level_zones ? lrcsi_revolution_level_rise(body, i) : mean_rise(body, i);
 }
 
 lrcs_patch_bounds lrcsi_revolution_patch_bounds(const lrcsi_revolution *body)
 {
     lrcs_patch_bounds bound = {0.0, 0.0, 0.0, 0.0};
-    for (uint32_t i = 0; i < body->rings; i++) {
-        lrcs_patch_bounds c = ring_patch_bounds(body, i);
+    for (uint32_t i = 0; i < body->zones; i++) {
+        lrcs_patch_bounds c = zone_patch_bounds(body, i);
         bound.turn = fmax(bound.turn, c.turn);
         bound.area_err = fmax(bound.area_err, c.area_err);
         bound.bias = fmax(bound.bias, c.bias);

@@ -25,7 +25,7 @@
    - Sphere: N is the position on the unit sphere, so with along = 1/R the difference is that of
      patch and facets along e_y,
          (rho cos vh - kappa r) cos nu - (z - z') sin nu.
-     There rho - r is between 0 and lrcsi_ring_outside, and (1 - kappa) r varies by
+     There rho - r is between 0 and lrcsi_zone_outside, and (1 - kappa) r varies by
      |1 - kappa| (rho0 - rho1). With a and beta the fractions of the height, z - z' is a constant
    and (beta - a) dz + beta (dz' - dz), dz and dz' the rises of patch and facets; beta - a is
    between 0 and (rho0 - rho1) / (4 (rho0 + rho1)).
@@ -33,7 +33,7 @@
          |f''| = |sin(alpha - nu) + 2 y cos(alpha - nu)| cos^4 alpha,
      so that it differs from its chord between both rows by at most (y1 - y0)^2 / 8 times the
      supremum of that. On the facets y_rim r/R is linear in the position along e_y, and takes the
-     place of y, from which it differs by 0 .. y_rim lrcsi_ring_outside / R. */
+     place of y, from which it differs by 0 .. y_rim lrcsi_zone_outside / R. */
 #include "mesh/shape/revolution_normals.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ static double normals_straight(const lrcsi_revolution *body, uint32_t i,
     double above = lrcsi_revolution_radius(body, i + 1);
     double mean = 0.5 * (below + above);
     double h = body->half;
-    double sine = cos(lrcsi_ring_make(body, i).low);
+    double sine = cos(lrcsi_zone_make(body, i).low);
     double uneven = sine * fabs(below - above) / (below + above);
     double bent = sine * fmax(below, above) / mean * (h * h * h / 15.0);
     n->across = sine / (body->vertex_ratio * mean);
@@ -66,11 +66,11 @@ static double normals_paraboloid(const lrcsi_revolution *body, uint32_t i,
     double y0 = lrcsi_revolution_tangent(body, i + 1);
     double low = 1.0 / hypot(1.0, y1); /* cos alpha */
     double high = 1.0 / hypot(1.0, y0);
-    double shift = body->slope * (lrcsi_ring_outside(body, i) / body->base);
-    lrcsi_ring ring = lrcsi_ring_make(body, i);
+    double shift = body->slope * (lrcsi_zone_outside(body, i) / body->base);
+    lrcsi_zone zone = lrcsi_zone_make(body, i);
     double nu = atan2(n->cosine, n->sine);
-    double elevation = fmax(fabs(ring.low - nu), fabs(ring.high - nu));
-    double fall = sin(nu - ring.low) - sin(nu - ring.high);
+    double elevation = fmax(fabs(zone.low - nu), fabs(zone.high - nu));
+    double fall = sin(nu - zone.low) - sin(nu - zone.high);
     double second = (elevation + 2.0 * y1) * (high * high) * (high * high);
     double uneven = y1 * (0.5 * (high - low)) + high * shift;
     double bent = y1 * high * (h * h * h / 15.0);
@@ -90,7 +90,7 @@ static double normals_round(const lrcsi_revolution *body, uint32_t i, lrcsi_revo
     double kappa = body->vertex_ratio * cos(h);
     double unit = 1.0 / body->base;
     double rise = lrcsi_revolution_level_rise(body, i); /* of the patch */
-    double out = lrcsi_ring_outside(body, i);
+    double out = lrcsi_zone_outside(body, i);
     double lag = 0.25 * (below - above) / (below + above) * rise +
                  fabs(lrcsi_revolution_rise(body, i) - rise);
     double sine = below * unit;
@@ -110,10 +110,10 @@ lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *b
     double h = body->half;
     double below = lrcsi_revolution_radius(body, i);
     double above = lrcsi_revolution_radius(body, i + 1);
-    lrcsi_ring ring = lrcsi_ring_make(body, i);
-    double facet = hypot(ring.gain * ring.across, ring.up);
-    lrcsi_revolution_normals n = {.sine = ring.gain * ring.across / facet,
-                                  .cosine = ring.up / facet,
+    lrcsi_zone zone = lrcsi_zone_make(body, i);
+    double facet = hypot(zone.gain * zone.across, zone.up);
+    lrcsi_revolution_normals n = {.sine = zone.gain * zone.across / facet,
+                                  .cosine = zone.up / facet,
                                   .width = body->vertex_ratio * sin(h) * fmax(below, above),
                                   .length = hypot(body->vertex_ratio * cos(h) * (below - above),
                                                   lrcsi_revolution_rise(body, i))};
@@ -121,7 +121,7 @@ lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *b
                   : body->kind == LRCS_SHAPE_PARABOLOID ? normals_paraboloid(body, i, &n)
                                                         : normals_round(body, i, &n);
     n.along_err += 0.5 * sine * fabs(n.cosine) * (2.0 * sin(0.5 * h) * sin(0.5 * h));
-    double rounding = (64.0 + 4.0 * (double)body->rings) * LRCSI_U;
+    double rounding = (64.0 + 4.0 * (double)body->zones) * LRCSI_U;
     n.across_err = n.across_err * LRCSI_REACH_MARGIN + rounding;
     n.across_mean = n.across_mean * LRCSI_REACH_MARGIN + rounding;
     n.along_err = n.along_err * LRCSI_REACH_MARGIN + rounding;

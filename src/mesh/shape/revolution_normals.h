@@ -18,7 +18,7 @@ typedef struct lrcsi_revolution_normals {
     double width, length; /* m: upper bounds of |x|, and of differences of y */
 } lrcsi_revolution_normals;
 
-/* For the ring between rows i and i + 1. */
+/* For the zone between rows i and i + 1. */
 lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *body, uint32_t i);
 
 #endif

@@ -12,7 +12,7 @@
      paraboloid: w^3 is linear in a, where w^2 = 1 + y^2. As a function of w^3, w^2 exceeds its
        chord most at w = v = 2 (w0^2 + w0 w1 + w1^2) / (3 (w0 + w1)), by
        (v - w1)^2 (v + 2 w1) / (3 v), where v - w1 = (w0 - w1) (2 w0 + w1) / (3 (w0 + w1)).
-   With b a bound on rho^2 - r^2 (ring_excess), rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1).
+   With b a bound on rho^2 - r^2 (zone_excess), rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1).
    Heights are compared as fractions from the top. The trapezoid's point is at
    beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)).
    The sphere's point is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2). To the
@@ -24,7 +24,7 @@
 
    Hausdorff distances. Let z_i be the height of the true circle i, z_i' that of row i, and sigma
    the largest distance between the meridian of a patch and its chord: R (1 - cos(d/2)) on a sphere;
-   on a paraboloid, where the meridian is at most H x^2 / 4 above its chord in a ring of width x R,
+   on a paraboloid, where the meridian is at most H x^2 / 4 above its chord in a zone of width x R,
    that times the cosine of the chord's inclination; 0 on straight walls. Meridian and chord are
    within sigma of each other, since all tangents are inclined by less than 90 deg to the chord.
    - Every cross-section of the facets' solid between two rows is a regular N-gon that contains the
@@ -71,7 +71,7 @@ static lrcsi_reach sector_reach(const lrcsi_revolution *body)
 /* True height of row i. */
 static double true_height(const lrcsi_revolution *body, uint32_t i)
 {
-    if (i == 0 || i == body->rings) {
+    if (i == 0 || i == body->zones) {
         return i == 0 ? 0.0 : body->height;
     }
     if (body->kind == LRCS_SHAPE_PARABOLOID) {
@@ -81,8 +81,8 @@ static double true_height(const lrcsi_revolution *body, uint32_t i)
     return body->height * cos(lrcsi_revolution_polar(body, i));
 }
 
-/* An upper bound of rho^2 - r^2 within ring i. */
-static double ring_excess(const lrcsi_revolution *body, uint32_t i)
+/* An upper bound of rho^2 - r^2 within zone i. */
+static double zone_excess(const lrcsi_revolution *body, uint32_t i)
 {
     double below = lrcsi_revolution_radius(body, i);
     double above = lrcsi_revolution_radius(body, i + 1);
@@ -106,8 +106,8 @@ static double ring_excess(const lrcsi_revolution *body, uint32_t i)
     return fmin(whole, rise * rise * (apart + 3.0 * p) / (3.0 * (apart + p))); /* ignores a NaN */
 }
 
-/* The largest distance between the meridian of ring i and its chord. */
-static double ring_sagitta(const lrcsi_revolution *body, uint32_t i)
+/* The largest distance between the meridian of zone i and its chord. */
+static double zone_sagitta(const lrcsi_revolution *body, uint32_t i)
 {
     if (lrcsi_revolution_is_straight(body)) {
         return 0.0;
@@ -123,11 +123,11 @@ static double ring_sagitta(const lrcsi_revolution *body, uint32_t i)
     return slant > 0.0 ? above * (wide * body->base / slant) : above;
 }
 
-double lrcsi_ring_outside(const lrcsi_revolution *body, uint32_t i)
+double lrcsi_zone_outside(const lrcsi_revolution *body, uint32_t i)
 {
     double below = lrcsi_revolution_radius(body, i);
     double above = lrcsi_revolution_radius(body, i + 1);
-    double excess = ring_excess(body, i);
+    double excess = zone_excess(body, i);
     if (!(excess > 0.0)) {
         return 0.0;
     }
@@ -135,15 +135,15 @@ double lrcsi_ring_outside(const lrcsi_revolution *body, uint32_t i)
     return above > 0.0 ? fmin(out, 0.5 * excess / above) : out;
 }
 
-/* How far points of ring i move, if its rows differ from their true heights by at most
+/* How far points of zone i move, if its rows differ from their true heights by at most
    height_err. */
-static lrcsi_reach ring_reach(const lrcsi_revolution *body, uint32_t i, double height_err)
+static lrcsi_reach zone_reach(const lrcsi_revolution *body, uint32_t i, double height_err)
 {
     double below = lrcsi_revolution_radius(body, i);
     double above = lrcsi_revolution_radius(body, i + 1);
-    double excess = ring_excess(body, i);
+    double excess = zone_excess(body, i);
     lrcsi_reach sector = sector_reach(body);
-    double out = lrcsi_ring_outside(body, i);
+    double out = lrcsi_zone_outside(body, i);
     double fraction = 0.0; /* the largest difference of fractions of the height */
     if (!lrcsi_revolution_is_straight(body) && below > above) {
         fraction = 0.25 * (below - above) / (below + above);
@@ -153,7 +153,7 @@ static lrcsi_reach ring_reach(const lrcsi_revolution *body, uint32_t i, double h
     }
     double rise = true_height(body, i + 1) - true_height(body, i);
     double wide = fmax(below, above);
-    double sagitta = ring_sagitta(body, i);
+    double sagitta = zone_sagitta(body, i);
     lrcsi_reach reach = {.radial = wide * sector.radial + out,
                          .axial = height_err + fmin(1.0, fraction) * rise,
                          .tangential = wide * sector.tangential + out * sin(body->half)};
@@ -172,20 +172,20 @@ lrcsi_reach lrcsi_revolution_reach(const lrcsi_revolution *body)
                          .solid = wide * fmax(outward_ratio(body), inward_ratio(body))};
     double z = 0.0;
     double height_err = 0.0;
-    for (uint32_t i = 0; i < body->rings; i++) {
+    for (uint32_t i = 0; i < body->zones; i++) {
         double before = height_err;
         z += lrcsi_revolution_rise(body, i);
         height_err = fabs(z - true_height(body, i + 1));
-        lrcsi_reach ring = ring_reach(body, i, fmax(before, height_err));
-        bound.all = fmax(bound.all, ring.all);
-        bound.radial = fmax(bound.radial, ring.radial);
-        bound.axial = fmax(bound.axial, ring.axial);
-        bound.tangential = fmax(bound.tangential, ring.tangential);
-        bound.solid = fmax(bound.solid, ring.solid);
-        bound.surface = fmax(bound.surface, ring.surface);
+        lrcsi_reach zone = zone_reach(body, i, fmax(before, height_err));
+        bound.all = fmax(bound.all, zone.all);
+        bound.radial = fmax(bound.radial, zone.radial);
+        bound.axial = fmax(bound.axial, zone.axial);
+        bound.tangential = fmax(bound.tangential, zone.tangential);
+        bound.solid = fmax(bound.solid, zone.solid);
+        bound.surface = fmax(bound.surface, zone.surface);
     }
     bound.surface = fmax(bound.surface, bound.solid);
-    double rounding = (32.0 + 2.0 * (double)body->rings) * LRCSI_U * (wide + body->height);
+    double rounding = (32.0 + 2.0 * (double)body->zones) * LRCSI_U * (wide + body->height);
     return (lrcsi_reach){.all = bound.all * LRCSI_REACH_MARGIN + rounding,
                          .radial = bound.radial * LRCSI_REACH_MARGIN + rounding,
                          .axial = bound.axial * LRCSI_REACH_MARGIN + rounding,

@@ -21,11 +21,11 @@ typedef struct lrcsi_reach {
 } lrcsi_reach;
 lrcsi_reach lrcsi_revolution_reach(const lrcsi_revolution *body);
 
-/* An upper bound of how far the true surface of ring i is outside its facets, rho - r. */
-double lrcsi_ring_outside(const lrcsi_revolution *body, uint32_t i);
+/* An upper bound of how far the true surface of zone i is outside its facets, rho - r. */
+double lrcsi_zone_outside(const lrcsi_revolution *body, uint32_t i);
 
 /* Covers the relative rounding error of a reach: its terms are positive and accurate to 1e-9, even
-   if 2^24 rings make the differences between neighbours small. */
+   if 2^24 zones make the differences between neighbours small. */
 #define LRCSI_REACH_MARGIN (1.0 + 1e-6)
 
 #endif

@@ -211,14 +211,14 @@ static void disc_open(row_builder *row, double r, double z, uint32_t around)
     row_add(row, r, z, around);
 }
 
-/* Adds rows 1 .. rings of the wall above the last row, which is at z = 0. */
+/* Adds rows 1 .. zones of the wall above the last row, which is at z = 0. */
 static double wall_add(row_builder *row, const lrcsi_revolution *body, int apex)
 {
     uint32_t around = row->count;
     lrcsi_dd z = {0.0, 0.0};
-    for (uint32_t i = 0; i < body->rings; i++) {
+    for (uint32_t i = 0; i < body->zones; i++) {
         z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_revolution_rise(body, i), 0.0});
-        int last = i + 1 == body->rings;
+        int last = i + 1 == body->zones;
         row_add(row, body->vertex_ratio * lrcsi_revolution_radius(body, i + 1), lrcsi_dd_value(z),
                 last && apex ? 1 : around);
     }
@@ -249,7 +249,7 @@ static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
     if (caps == 2 || shape->kind == LRCS_SHAPE_DISC) {
         double r = shape->kind == LRCS_SHAPE_DISC
                        ? base
-                       : body.vertex_ratio * lrcsi_revolution_radius(&body, body.rings);
+                       : body.vertex_ratio * lrcsi_revolution_radius(&body, body.zones);
         disc_close(&row, r, top);
     }
 }
@@ -300,21 +300,21 @@ static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divis
                             uint64_t *vertices, uint64_t *facets)
 {
     uint64_t around = divisions->around;
-    uint64_t rings = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
+    uint64_t zones = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
     uint64_t caps = shape_caps(shape) + (shape->kind == LRCS_SHAPE_DISC ? 1u : 0u);
     uint64_t apex = shape_has_apex(shape) ? 1 : 0;
     uint64_t inside = 0;
     uint64_t cap = 0;
     disc_counts(divisions->around, &inside, &cap);
-    *vertices = around * (1 + rings - apex) + apex + caps * inside;
-    *facets = around * (2 * rings - apex) + caps * cap;
+    *vertices = around * (1 + zones - apex) + apex + caps * inside;
+    *facets = around * (2 * zones - apex) + caps * cap;
     if (shape->kind == LRCS_SHAPE_SPHERE) {
         *vertices = 2 * *vertices - around;
         *facets *= 2;
     }
 }
 
-/* The facets of a wall follow those of the cap below it, ring by ring and sector by sector. */
+/* The facets of a wall follow those of the cap below it, zone by zone and sector by sector. */
 int lrcsi_tessellate_patch(const lrcs_shape *shape, const lrcs_divisions *divisions, uint32_t facet,
                            lrcsi_wall_patch *patch)
 {

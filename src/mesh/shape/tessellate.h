@@ -5,7 +5,7 @@
 
 #include "mesh/shape/revolution_reach.h"
 
-/* The largest numbers of sectors and of rings (lrcs_divisions). */
+/* The largest numbers of sectors and of zones (lrcs_divisions). */
 #define LRCSI_AROUND_MAX (1u << 24)
 #define LRCSI_ALONG_MAX  (1u << 24)
 

@@ -32,7 +32,7 @@
 /* No shape is given more sectors than this for its shadows. */
 #define SECTORS_MAX 1e6
 /* Of the reach that a round body is allowed, its sectors take up a fraction between these, in
-   steps; its rings take up the rest. */
+   steps; its zones take up the rest. */
 #define FRACTION_MIN  0.3
 #define FRACTION_MAX  0.85
 #define FRACTION_STEP 0.1
@@ -152,8 +152,8 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
-/* Divisions of a round body with level rings whose facets are within `reach` of its true surface.
-   The sectors take up the given fraction of that distance; rings are added until the facets are
+/* Divisions of a round body with level zones whose facets are within `reach` of its true surface.
+   The sectors take up the given fraction of that distance; zones are added until the facets are
    within it, or too many. */
 static lrcs_divisions divide_round_by(const lrcsi_fineness *fineness, const lrcs_shape *shape,
                                       double reach, double fraction)
@@ -240,7 +240,7 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
     }
     divisions->around = 4 * (uint32_t)(corners / 4.0 + 1.0);
     divisions->along = is_round ? divisions->around / 4 : 1;
-    divisions->level_rings = 0;
+    divisions->level_zones = 0;
     *counts = lrcsi_tessellate_counts(&part->shape, divisions);
     return counts->facets <= fineness->max_facets;
 }

@@ -111,7 +111,7 @@ void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene 
 /* A uniform scale does not change the bounds of patches; other scales change them as in
    mesh/shape/patch_bounds.h. Every affine map preserves convexity, and the outside stays outside,
    because a reflection reverses the windings. The coordinates of the mesh have a relative error of
-   (16 + rings) u before placing (mesh/shape/revolution.c), except for underflow. */
+   (16 + zones) u before placing (mesh/shape/revolution.c), except for underflow. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                                  const lrcs_patch_bounds *bounds, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part)
