@@ -77,13 +77,14 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
 
 /* Bounds on how closely the facets of a mesh approximate the curved body that they replace. For
    each facet there is a patch of the true surface. Patches cover the body once (facets of one plane
-   may share a patch, each in proportion to its area), and over every patch: the true normal
-   deviates from the facet's normal by at most `turn` (rad); |patch area - facet area| <= area_err *
-   facet area; |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias *
-   facet area; integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area. All
-   are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of the
-   mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling (the
-   rounding of these is not included). */
+   may share a patch, each in proportion to its area), and over every patch:
+     the true normal deviates from the facet's normal by at most `turn` (rad);
+     |patch area - facet area| <= area_err * facet area;
+     |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias * facet area;
+     integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area.
+   All are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of
+   the mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling
+   (the rounding of these is not included). */
 typedef struct lrcs_patch_bounds {
     double turn;
     double area_err;
