@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The distribution of sigma over many poses: its mean, percentiles, cumulative distribution and
    histogram, each between the least and the most that it can be where sigma of every pose is within
-   its bound. These are statistics of the poses given: how sigma varies between them is not known.
- */
+   its bound. These are statistics of the poses given: how sigma varies between them is
+   not known. */
 #ifndef LRCS_DISTRIBUTION_H
 #define LRCS_DISTRIBUTION_H
 

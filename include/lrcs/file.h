@@ -59,8 +59,8 @@ int lrcs_host_name_is_near(const char *text, const char *name);
 
 /* The names most like what was typed, best first, each once: those that contain the text or are
    contained in it, then those with the fewest edits, ignoring case.
-   Given: name[count]; capacity, the size of `near`. Returned: near, pointers into name; how many.
- */
+   Given: name[count]; capacity, the size of `near`. Returned: near, pointers into name;
+   how many. */
 uint32_t lrcs_host_names_near(const char *text, const char *const *name, uint32_t count,
                               const char **near, uint32_t capacity);
 

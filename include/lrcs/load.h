@@ -107,8 +107,8 @@ int lrcs_host_output_check(const char *path, const lrcs_host_scene *scene, lrcs_
 /* 1 if two output paths refer to the same file, whether it exists or not; else 0. */
 int lrcs_host_output_same(const char *path, const char *other);
 
-/* The bounding box of all facets that are not omitted, m, body frame; all zero if there are none.
- */
+/* The bounding box of all facets that are not omitted, m, body frame; all zero if there
+   are none. */
 void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3]);
 
 /* 1 if facets replace curved shapes of the scene, so that a tolerance changes it; else 0. */

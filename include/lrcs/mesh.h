@@ -93,8 +93,8 @@ size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count);
    2. The box includes degenerate facets.
    3. Decisions are exact (degenerate, convex) if coordinates are zero or exceed 2^-300 in
    magnitude; below that, underflow may make a facet count as degenerate or a mesh as not convex.
-   4. Errors, per facet: a few ulp relative for the area, 1e-30 of the box's volume for the volume.
-   */
+   4. Errors, per facet: a few ulp relative for the area, 1e-30 of the box's volume for
+   the volume. */
 int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                     uint32_t facet_count, lrcs_work *work, lrcs_mesh_report *report);
 

@@ -76,8 +76,8 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
    over curved normals adds to that error, 0 without such. Status: LRCS_OK; LRCS_E_ARGUMENT (the
    width); LRCS_E_NUMBER (not finite). Work: O(bins).
    Notes: 1. Of each bin, sigma and its moment are used; the bound includes the effect of all higher
-   moments: about (bin_m / fwhm_m)^2 of the density, which is 1e-4 of it for bins of fwhm_m / 100.
- */
+   moments: about (bin_m / fwhm_m)^2 of the density, which is 1e-4 of it for bins
+   of fwhm_m / 100. */
 int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
                        double *density_m, double *bound_m, double *estimate_m);
 

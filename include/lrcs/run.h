@@ -70,14 +70,12 @@ typedef struct lrcs_result {
     double back_side_area_m2;     /* visible projected area of one-sided back sides */
     uint32_t back_side_facets;    /* their number */
     int method;                   /* lrcs_method: the one used, never AUTO */
-    const char
-        *method_reason;    /* reason for the choice: constant text, "as requested" unless auto chose
-                            */
-    uint32_t resolution;   /* 0: no raster */
-    uint32_t facets_total; /* of the scene */
-    uint32_t facets_front; /* whose front faces the laser */
-    uint32_t facets_hidden;           /* of those that could reflect, how many are hidden */
-    uint32_t facets_partial;          /* likewise, how many are visible in part */
+    const char *method_reason;    /* constant text: why; "as requested" unless auto chose */
+    uint32_t resolution;          /* 0: no raster */
+    uint32_t facets_total;        /* of the scene */
+    uint32_t facets_front;        /* whose front faces the laser */
+    uint32_t facets_hidden;       /* of those that could reflect, how many are hidden */
+    uint32_t facets_partial;      /* likewise, how many are visible in part */
     lrcs_effect effect[LRCS_EFFECTS]; /* by lrcs_effect_name */
     uint32_t flags, notices;          /* lrcs_flag and lrcs_notice bits */
     uint64_t steps; /* of the visibility computation: note 3 of lrcs_run_options_default */

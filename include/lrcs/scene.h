@@ -69,8 +69,8 @@ typedef struct lrcs_part {
     int axis_exact; /* 1: the axes were not rounded */
     /* Of an engine-made shape, also if its scale differs between axes. A normal n of the shape
        points to n[0] normal_axis[0] + n[1] normal_axis[1] + n[2] normal_axis[2] in the body frame,
-       at most a unit vector; areas are multiplied by that vector's length, normal_area and unit^2.
-     */
+       at most a unit vector; areas are multiplied by that vector's length, normal_area
+       and unit^2. */
     int normals_known; /* 1: these two are valid */
     double normal_axis[3][3], normal_area;
 } lrcs_part;

@@ -28,8 +28,8 @@ typedef struct lrcs_sequence {
     double proof_scale;   /* the same for what a raster with a bound takes besides; 0: not known */
 } lrcs_sequence;
 
-/* What is tried, without forecasts: rasters of each kind at each resolution, and the last setting.
- */
+/* What is tried, without forecasts: rasters of each kind at each resolution, and the
+   last setting. */
 lrcs_sequence lrcs_sequence_make(void);
 
 /* The setting that is tried next, with `left` seconds to go: the one with the least expected time

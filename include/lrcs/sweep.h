@@ -43,8 +43,8 @@ typedef struct lrcs_host_sweep {
     uint32_t glint_count;
     void *context;                       /* passed to all callbacks */
     const volatile sig_atomic_t *cancel; /* set by a signal handler or by `take`, for example: if
-                                            not 0, the sweep stops after the running poses; or NULL
-                                          */
+                                            not 0, the sweep stops after the running poses;
+                                            or NULL */
 } lrcs_host_sweep;
 
 /* Runs the poses of a sweep.
@@ -57,8 +57,7 @@ typedef struct lrcs_host_sweep {
    Work: one work area per thread, which grows as the poses need it; a queue of results whose length
    does not depend on the number of poses. With `glint` and `uncertainty` each pose is run twice. If
    the system refuses threads, the sweep runs with fewer; if a pose runs out of memory, that pose
-   and the remaining ones are run by half as many threads.
-   */
+   and the remaining ones are run by half as many threads. */
 int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *options,
                         const lrcs_host_sweep *sweep, uint64_t *done, lrcs_host_error *error);
 

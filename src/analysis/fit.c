@@ -10,6 +10,7 @@
 
 #include "analysis/fit_presence.h"
 #include "analysis/fit_profile.h"
+#include "analysis/fit_robust.h"
 #include "analysis/fit_search.h"
 #include "base/degrees.h"
 #include "base/range.h"

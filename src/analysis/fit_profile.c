@@ -10,10 +10,12 @@
 
 #include "base/range.h"
 
+/* More strides than doublings lead through any range of the search, and more iterations than the
+   tolerance below needs. */
 #define PROFILE_STRIDES    60
 #define PROFILE_ITERATIONS 24
 
-#define PROFILE_SHAPES 12
+#define PROFILE_SHAPES 12 /* intervals between the values of s or m at which a walk looks */
 
 /* The relative error to which a limit is found, in the square root of the rise. */
 #define PROFILE_TOLERANCE 1e-4
@@ -22,6 +24,7 @@
    minimum and is not due to rounding. */
 #define PROFILE_LOWER 1e-6
 
+/* Of a matrix whose diagonal is 1: a smaller pivot is a row that depends on others. */
 #define PROFILE_PIVOT 1e-12
 
 /* ---- by derivatives ---- */
@@ -92,8 +95,8 @@ typedef struct profile_walk {
     lrcsi_fit_parameters low;  /* the lowest minimum found */
 } profile_walk;
 
-/* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest
-   becomes the lower of this minimum and *lowest. */
+/* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest becomes the
+   lower of this minimum and *lowest. */
 static void walk_minimize(profile_walk *walk, double x, const lrcsi_fit_parameters *from,
                           lrcsi_fit_parameters *lowest)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which readings a fit uses. This file decides how large the errors of readings are taken to be,
    how a minimization limits the influence of single readings, and which readings are excluded. */
-#include "analysis/fit_search.h"
+#include "analysis/fit_robust.h"
 
 #include <math.h>
 

@@ -9,11 +9,13 @@
 
 #include "base/range.h"
 
+/* The nodes of the grid in log(s) and log(1 + m). */
 #define SEARCH_S_STEPS 24
 #define SEARCH_M_STEPS 10
 
-/* Least squares, reweighted with the inverse of the previous residuals: after five passes
-   the sum of absolute residuals is close enough to its minimum for a starting point. */
+/* Least squares, reweighted with the inverse of the previous residuals: after five passes the sum
+   of absolute residuals is close enough to its minimum for a starting point. A residual below this
+   fraction of their mean is weighted as if it were that large. */
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 

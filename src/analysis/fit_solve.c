@@ -14,14 +14,20 @@
 
 #include "base/range.h"
 
-#define SOLVE_STEPS 80
+/* The numbers of the minimization are choices: what it finds is a minimum to within rounding, from
+   whichever steps. */
+#define SOLVE_STEPS         80   /* most steps tried */
+#define SOLVE_DAMPING       1e-3 /* of the first step */
+#define SOLVE_DAMPING_RAISE 8.0  /* its factor after a step that is refused; after others, 1/8 */
+
+/* A step that lowers the sum by less than this fraction is the last one. */
+#define SOLVE_CONVERGED 1e-14
 
 /* If no step up to this damping lowers the sum, it is at its minimum to within rounding. */
 #define SOLVE_DAMPING_MAX 1e10
 
-/* The largest step in log(s) or log(1 + m): a longer one would leave the range in which the linear
-   model is valid.
- */
+/* The largest step in log(s) or log(1 + m): a longer one would leave the range in which the model
+   is nearly linear. */
 #define SOLVE_STRIDE 1.0
 
 /* A column that is a multiple of another one to within rounding is redundant. */
@@ -240,7 +246,7 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
 void lrcsi_fit_minimize(lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters)
 {
     lrcsi_fit_normal normal;
-    double damping = 1e-3;
+    double damping = SOLVE_DAMPING;
     double step[2];
     lrcsi_fit_evaluate(data, fixed, parameters, &normal);
     for (int i = 0; i < SOLVE_STEPS && damping < SOLVE_DAMPING_MAX; i++) {
@@ -256,13 +262,13 @@ void lrcsi_fit_minimize(lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_paramete
         }
         lrcsi_fit_evaluate(data, fixed, &next, &there);
         if (!(next.square < parameters->square)) {
-            damping *= 8.0;
+            damping *= SOLVE_DAMPING_RAISE;
             continue;
         }
-        int converged = parameters->square - next.square <= 1e-14 * parameters->square;
+        int converged = parameters->square - next.square <= SOLVE_CONVERGED * parameters->square;
         *parameters = next;
         normal = there;
-        damping *= 0.125;
+        damping /= SOLVE_DAMPING_RAISE;
         if (converged) {
             break;
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the modules of the fit: the readings as a least-squares problem, and its minimization.
- */
+/* Shared by the modules of the fit: the readings as a least-squares problem, and how it is
+   minimized. */
 #ifndef LRCSI_FIT_SOLVE_H
 #define LRCSI_FIT_SOLVE_H
 

@@ -51,6 +51,13 @@
 #define CURVED_MIN 4.0
 #define CURVED_MAX (0.75 * LRCS_PI)
 
+/* Of two kinds that explain equally many facets, the later is preferred only if it is closer by
+   this factor: a plane is a sphere of large radius. */
+#define CLOSER 0.9
+
+/* Neighbours whose normals turn by less, 3e-5 rad, determine no curved surface. */
+#define COS_TURNED (1.0 - 1e-9)
+
 #define SURROUNDINGS 32u
 #define COMPANIONS   7u   /* surroundings from which surfaces are guessed */
 #define GROWTHS      8    /* rounds of growing and fitting */
@@ -203,9 +210,9 @@ static int best_guess(finder *f, int kind, const uint32_t *around, uint32_t arou
     int found = 0;
     for (uint32_t i = 1; i < around_count && companions < COMPANIONS; i++) {
         const double *n = f->normal[around[i]].x;
-        int turned = lrcsi_vec3_dot(n, f->normal[around[0]].x) < 1.0 - 1e-9;
+        int turned = lrcsi_vec3_dot(n, f->normal[around[0]].x) < COS_TURNED;
         for (uint32_t j = 0; j < companions && turned; j++) {
-            turned = lrcsi_vec3_dot(n, f->normal[companion[j]].x) < 1.0 - 1e-9;
+            turned = lrcsi_vec3_dot(n, f->normal[companion[j]].x) < COS_TURNED;
         }
         companion[companions] = around[i];
         companions += turned != 0;
@@ -375,7 +382,7 @@ static int seed_region(finder *f, uint32_t seed, lrcs_quadric_region *region)
         }
         uint32_t count = region_fit(f, seed, &one);
         if (count > most || (count == most && count > 0 &&
-                             one.bound.displacement < 0.9 * region->bound.displacement)) {
+                             one.bound.displacement < CLOSER * region->bound.displacement)) {
             most = count;
             *region = one;
             memcpy(f->best, f->queue, count * sizeof *f->best);

@@ -10,6 +10,12 @@
 
 #define PARAMETERS_MAX 6
 
+/* What is added to the diagonal of the normal equations, relative to it and to its sum, so that the
+   pivots of undetermined parameters are positive; and absolutely, for equations that are all 0. */
+#define SOLVE_OWN_SHARE   1e-12
+#define SOLVE_TRACE_SHARE 1e-28
+#define SOLVE_ABSOLUTE    0x1p-1000
+
 /* Normal equations of least squares: matrix x = right. */
 typedef struct normal_equations {
     double matrix[PARAMETERS_MAX][PARAMETERS_MAX], right[PARAMETERS_MAX];
@@ -35,7 +41,8 @@ static int equations_solve(normal_equations *e, double x[PARAMETERS_MAX])
         trace += e->matrix[i][i];
     }
     for (int i = 0; i < e->count; i++) {
-        e->matrix[i][i] = e->matrix[i][i] * (1.0 + 1e-12) + 1e-28 * trace + 0x1p-1000;
+        e->matrix[i][i] =
+            e->matrix[i][i] * (1.0 + SOLVE_OWN_SHARE) + SOLVE_TRACE_SHARE * trace + SOLVE_ABSOLUTE;
     }
     for (int i = 0; i < e->count; i++) {
         for (int j = 0; j <= i; j++) {
@@ -67,16 +74,11 @@ static int equations_solve(normal_equations *e, double x[PARAMETERS_MAX])
     return finite;
 }
 
+/* Divides v by its length. Returns 0 if its squares may underflow or overflow. */
 static int vector_unit(double v[3])
 {
     double length = lrcsi_length(v);
-    if (!(length > 0x1p-400 && length < 0x1p400)) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        v[k] /= length;
-    }
-    return 1;
+    return length > 0x1p-400 && length < 0x1p400 && lrcsi_length_normalise(v);
 }
 
 /* The point at equal distance from the corners of each facet: on the perpendicular bisectors of all
@@ -226,7 +228,7 @@ int lrcsi_quadric_step(lrcs_quadric *surface, const lrcs_scene *scene, const uin
         next.axis[0] = next.axis[1] = 0.0;
         next.axis[2] = 1.0;
     }
-    int thin = fabs(next.axis[0]) < 0.6 ? 0 : 1; /* an axis away from this one */
+    int thin = fabs(next.axis[0]) < 0.6 ? 0 : 1; /* a coordinate axis that is far from it */
     u[thin] = 1.0;
     lrcsi_vec3_cross(next.axis, u, v);
     int valid = vector_unit(v);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* FNV-1a, 64 bit (Fowler, Noll, Vo; draft-eastlake-fnv): a fingerprint, not a cryptographic hash.
- */
+/* FNV-1a, 64 bit (Fowler, Noll, Vo; draft-eastlake-fnv): a fingerprint, not a
+   cryptographic hash. */
 #ifndef LRCSI_FNV_H
 #define LRCSI_FNV_H
 

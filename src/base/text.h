@@ -13,8 +13,8 @@
    terminator ends a sequence. */
 size_t lrcsi_text_sequence(const char *bytes, size_t size);
 
-/* The length of the UTF-8 byte order mark at the beginning of the bytes: 3, or 0 if there is none.
- */
+/* The length of the UTF-8 byte order mark at the beginning of the bytes: 3, or 0 if there
+   is none. */
 size_t lrcsi_text_mark(const char *bytes, size_t size);
 
 /* 1 if the bytes are well-formed UTF-8 (RFC 3629: no overlong forms, surrogates or code points

@@ -50,8 +50,8 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
             lrcsi_occlude_all(&run->classification, meter, run->work,
                               sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
         /* Moments must belong to the areas (areas_apply_proofs). Where steps ran out, areas are
-           uncertain, and corrections by moments would make bounds grow where more steps are left.
-         */
+           uncertain, and corrections by moments would make bounds grow where more steps
+           are left. */
         run->moment = run->plan.fronts_visible || meter->spent ? NULL : run->moment_memory;
     }
     run->outcome.size = 0;

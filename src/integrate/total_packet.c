@@ -188,8 +188,8 @@ static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t coun
 }
 
 /* Collects the selected facets among the LRCSI_LANES from index `start` on, and adds the packet
-   once it is full. The facets reflect from the side that faces the laser: 1, or -1 for their back.
- */
+   once it is full. The facets reflect from the side that faces the laser: 1, or -1 for
+   their back. */
 static void batch_collect(lrcsi_total_run *run, total_batch *batch, uint32_t start,
                           const uint64_t pick[LRCSI_LANES], int side)
 {

@@ -9,8 +9,7 @@
 
 /* Corners, with coordinates below 1, have errors of about 2^-48, which change areas by at most that
    times the perimeter. The fraction of a triangle whose altitude is below SLICE_ALTITUDE_MIN is
-   unknown; for others its error is at most that of the margin, 3 2^-48 / (SLICE_ALTITUDE_MIN / 2).
- */
+   unknown; for others its error is at most that of the margin, 6 2^-48 / SLICE_ALTITUDE_MIN. */
 #define SLICE_ALTITUDE_MIN 1e-7
 #define SLICE_MARGIN       (1.0 + 1e-6)
 /* Rounding of the two ends of an extent. */

@@ -171,8 +171,8 @@ static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_fac
             side[place[low]++] = (lrcsi_sort_item){at[k] ^ other ^ low, SIDES * f + k};
         }
     }
-    /* 3. Sorts the sides of each vertex by their upper ends: those with the same one are an edge.
-     */
+    /* 3. Sorts the sides of each vertex by their upper ends: those with the same one are
+       an edge. */
     uint32_t begin = 0;
     t->edge_count = 0;
     for (uint32_t v = 0; v < vertex_count; v++) {

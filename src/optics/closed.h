@@ -31,8 +31,8 @@ typedef struct lrcsi_term_integrals {
     double value[LRCSI_TERMS], error[LRCSI_TERMS];
 } lrcsi_term_integrals;
 
-/* Length of (a, b): relative error at most 2^-98 for operands of that accuracy; a component below
- * 2^-480 of the other counts as 0. */
+/* Length of (a, b): relative error at most 2^-98 for operands of that accuracy; a component that is
+   less than 2^-480 of the other counts as 0. */
 lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b);
 
 /* sine and cosine of a + b and a - b: relative error 2^-94 times the cancellation. */

@@ -27,10 +27,9 @@ typedef struct lrcsi_arc_point {
 
 lrcsi_arc_integrand lrcsi_arc_integrand_make(const lrcs_brdf *brdf, int term, double cos_reference);
 
-/* A circle of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 -
-   k is not negative, the circle is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi -
-   phi_1.
- */
+/* A circle of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2), and q_pi = q(pi) is
+   1 - k. If q_pi is not negative, the circle is entirely lit and phi_1 = pi; else q(phi_1) = 0, and
+   psi_1 is pi - phi_1. */
 typedef struct lrcsi_normal_circle {
     double k, q_pi, psi_1;
 } lrcsi_normal_circle;

@@ -4,10 +4,12 @@
    except for the cylinder, which has a closed form.
 
    With the half-angle beta (the wall's normals are at an angle of pi/2 - beta to the axis) the
-   normal at azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) =
-   c_max (1 - k sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1
-   - k = c_min / c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi *
-   F(c_max) * integral over phi = 0 .. phi_1 of F / F(c_max). */
+   normal at azimuth phi has
+     cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi)
+                = c_max (1 - k sin^2(phi/2)),
+   where c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1 - k is c_min / c_max
+   with c_min = sin(beta - alpha). The integral of F over the wall is
+     area/pi F(c_max) times the integral over phi = 0 .. phi_1 of F / F(c_max). */
 #include <math.h>
 
 #include "base/degrees.h"

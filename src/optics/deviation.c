@@ -32,7 +32,7 @@
    u^a w^b E / s^(2c) is unimodal in u (its logarithm is concave in u, E included), so its supremum
    over an interval is its value at the clamped peak, the root of u^2 + (1 - (a + b) s^2) u = a s^2.
    Terms are evaluated as the exponential of a sum of logarithms, none of them above 1e4 if the
-   result is in double range: the relative error is below 1e4 * 2^-50, which DEVIATION_MARGIN
+   result is in double range: the relative error is below 1e4 * 2^-50, which DEVIATION_ERR
    covers. */
 #include "base/constant.h"
 #include "optics/reflect.h"
@@ -42,7 +42,8 @@
 #include "base/elementary.h"
 
 #define HALF_PI_BELOW    1.57079632679489655800 /* the double below pi/2 */
-#define DEVIATION_MARGIN (1.0 + 1e-10)
+#define DEVIATION_ERR    1e-10
+#define DEVIATION_MARGIN (1.0 + DEVIATION_ERR)
 #define EXPONENT_LOW     (-700.0)
 #define DEVIATION_TINY   0x1p-1009 /* above e^-700: replaces all smaller values */
 #define SLOPE_HUGE       1e75      /* for larger s the peaks are beyond all finite u that occur */
@@ -145,7 +146,7 @@ static deviation_suprema glint_suprema(double s, int front, tan2_point *at_facet
         double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, at_facet);
         double larger = fmax(up, down);
         sup.value = glint_term(0.0, 2.0, 0.0, &slope, at_facet);
-        sup.slope = isfinite(larger) ? fabs(up - down) + 1e-10 * larger : larger;
+        sup.slope = isfinite(larger) ? fabs(up - down) + DEVIATION_ERR * larger : larger;
     }
     sup.value_max = glint_sup(0.0, 2.0, 0.0, &slope, range);
     sup.slope_max = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
@@ -208,6 +209,7 @@ static void suprema_add(deviation_suprema *sum, double amplitude, const deviatio
 /* tan^2 over the angles within `turn` of theta that face the laser; 0 if none does. */
 static int range_around(double theta, double turn, tan2_range *range)
 {
+    /* rounding: of theta, an arctangent of a root, and of the sums; then of tan and its square */
     double slack = 8.0 * LRCSI_U * (theta + turn);
     double low = theta - turn - slack;
     double high = theta + turn + slack;
@@ -248,7 +250,8 @@ static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_pat
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                                      const lrcs_patch_bounds *bounds)
 {
-    if (cos_theta < -(bounds->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
+    /* below -sin(turn), with room for the error of cos_theta: all of the patch faces away */
+    if (cos_theta < -(bounds->turn + 0x1p-40)) {
         return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     int front = cos_theta > 0.0;

@@ -113,7 +113,8 @@ static wall_value mean_over_circle(const divided_wall *wall, double psi, double 
     return sum;
 }
 
-/* The largest ratio over a set of aspects of a straight wall: every 15 deg, and near the glint. */
+/* The largest ratio over a set of aspects of a straight wall: 13 at every 15 deg, and 8 in half
+   steps about the glint. */
 static double straight_wall_error(const divided_wall *wall, const lrcs_shape *shape)
 {
     double psi = shape->kind == LRCS_SHAPE_CYLINDER ? 0.0 /* elevation of the wall's normal */
@@ -143,7 +144,8 @@ static double rim_angle(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* The largest ratio of a cap of normals over aspects: up to the rim, and near it. At each aspect
+/* The largest ratio of a cap of normals over aspects: 4 up to the rim, and 4 in steps about it. At
+   each aspect
    alpha the error and sigma are integrals over the cap, with nodes that are denser near alpha, on
    both sides of it; `size` is the area of the cap. */
 static double cap_error(const divided_wall *wall, const lrcs_shape *shape)

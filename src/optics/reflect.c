@@ -111,16 +111,16 @@ static int first_order_holds(const reflect_term *term, double e)
            term->value > 0x1p-900;
 }
 
-/* The true u lies in [u / (1 + e), u / (1 - e)]. For e <= 1/4, log(u) has an error of at most 1.16
-   e, and log_slope grows by at most a factor of 4/3. So the error of log(term) is at most delta. */
+/* The true u lies in [u / (1 + e), u / (1 - e)]. For e <= 1/4 the error of log(u) is at most
+   1.16 e, and log_slope grows by at most a factor of 4/3. So the error of log(term) is at most
+   delta. */
 static double term_error(const reflect_term *term, double e)
 {
     double delta = term->relative + 2.0 * e * term->log_slope;
     return term->value * delta * (1.0 + delta);
 }
 
-/* A bound on the error from a bound on the term itself: twice that covers underflow and rounding.
- */
+/* A bound on the error from one on the term itself: twice that covers underflow and rounding. */
 static double term_error_bound(const reflect_term *term, double term_bound)
 {
     return 2.0 * fmax(term->value, term_bound) + 0x1p-1000;

@@ -6,8 +6,9 @@
    subtracted exactly.
 
    Error of q, with u = 2^-53 and r = |v|: n has an error of at most 1.01 u in all, d is exact, the
-   two subtractions add 2 u of v; squares and their sums add 3 u of q. Together |dq| <= 2.02 u r + 7
-   u q + 8 u^2, also with r and q as computed. As dc = -dq/2, this changes the logarithms
+   two subtractions add 2 u of v; squares and their sums add 3 u of q. Together
+       |dq| <= 2.02 u r + 7 u q + 8 u^2,
+   also with r and q as computed. As dc = -dq/2, this changes the logarithms
        of c^-5 exp(-tan^2/s^2)  by at most (2.5/c + 1/(s^2 c^3)) |dq|,
        of c^(m+1)               by at most (m + 2)/(2 c) |dq|,
    and those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S c, by no more.
@@ -30,9 +31,9 @@
 
    The constants below leave room for terms in u^2. An error delta of the logarithm
    gives the value a relative error of at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for
-   delta < 2^-11: its largest part is (2.02 r + 7 q) u/(s^2 c^3). If r >= 2^-12, 1/(s^2 c^2) <= 2
-   x/q and x <= 700 make it at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s
-   >= 2^-20 makes it at most (2.02 r + 7 q) 2^41 u < 2^-22.
+   delta < 2^-11: its largest part is (2.02 r + 7 q) u/(s^2 c^3). If r >= 2^-12, it is at most
+   (2.02/r + 7) (1400/c) u < 2^-23, because 1/(s^2 c^2) <= 2 x/q and x <= 700; otherwise c is almost
+   1, and it is at most (2.02 r + 7 q) 2^41 u < 2^-22, because s >= 2^-20.
 
    A term with an exponent beyond 700 counts as 0: it is below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
    Underflow of intermediate results causes an error of at most 2^-1075. */
@@ -63,9 +64,9 @@ static inline double sqrt_bound(double q)
     return lrcsi_bits_double((lrcsi_bits_of(q) >> 1) + UINT64_C(0x1ff8000000000000));
 }
 
-/* sqrt(c) for c in [2^-7, 2]. The bits give y = c^(-1/2) to 3.5 %; with h = 1 - c y^2, y (1 + h/2 +
-   3 h^2/8) leaves 5/16 h^3: 1.2e-4, 5e-12, and the third step, without its last term, 3/8 h^2:
-   below 2^-70. Rounding: h to 2 u of 1, so y to 1 + 1 units, and c y: 3 in all. */
+/* sqrt(c) for c in [2^-7, 2]. The bits give y = c^(-1/2) to 3.5 %; with h = 1 - c y^2, the step to
+   y (1 + h/2 + 3 h^2/8) leaves 5/16 h^3: 1.2e-4, 5e-12, and the third step, without its last term,
+   3/8 h^2: below 2^-70. Rounding: h to 2 u of 1, so y to 1 + 1 units, and c y: 3 in all. */
 static inline double sqrt_iterated(double c)
 {
     double y = lrcsi_bits_double(UINT64_C(0x5fe6eb50c7b537a9) - (lrcsi_bits_of(c) >> 1));

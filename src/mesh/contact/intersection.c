@@ -239,8 +239,8 @@ static uint32_t count_lanes(unsigned mask)
 
 /* Is a leaf, by the slab that contains it, proved to be disjoint from the facets in `lanes` of
    another leaf: do all their corners lie beyond one side of the slab? Errors: as |d_k| <= 1, the
-   height of a corner has an error of at most 4 u (|x| + |y| + |z|); so have the ends of the slab.
- */
+   height of a corner has an error of at most 4 u (|x| + |y| + |z|); so have the ends of
+   the slab. */
 static int slab_separates(contact_search *search, uint32_t own, uint32_t leaf, unsigned lanes)
 {
     const search_leaf *others = &search->leaf[leaf];

@@ -234,8 +234,8 @@ static int separating_side(const lrcsi_pair_facet *f, int orientation, const lrc
     return -1;
 }
 
-/* Does T, in the plane of F, meet side k of F elsewhere than in its ends, without having that side?
- */
+/* Does T, in the plane of F, meet side k of F elsewhere than in its ends, without having
+   that side? */
 static int flat_side_is_met(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int k)
 {
     const double *a = f->x[k];
@@ -325,8 +325,8 @@ static int cut_meets(pair_crossing *c, int i)
     return inside && (ends == 1 || (above && below));
 }
 
-/* Step 4: does f[i] meet side k of the other elsewhere than in its ends, without having that side?
- */
+/* Step 4: does f[i] meet side k of the other elsewhere than in its ends, without having
+   that side? */
 static int side_is_met(pair_crossing *c, int i, int k)
 {
     int at_a = c->of[!i][k];

@@ -20,19 +20,19 @@
 #include "base/work.h"
 #include "mesh/store.h"
 
-#define STL_HEADER 84u
-#define STL_FACET  50u
+#define STL_COUNT_AT 80u /* in the header */
+#define STL_FACET    50u
 
 int lrcsi_stl_is_binary(const unsigned char *bytes, size_t size)
 {
-    return size >= STL_HEADER && (size - STL_HEADER) % STL_FACET == 0 &&
-           (size - STL_HEADER) / STL_FACET == lrcsi_bytes_u32(bytes + 80);
+    return size >= LRCSI_STL_HEADER && (size - LRCSI_STL_HEADER) % STL_FACET == 0 &&
+           (size - LRCSI_STL_HEADER) / STL_FACET == lrcsi_bytes_u32(bytes + STL_COUNT_AT);
 }
 
 /* 1 if the stored normal is proved to oppose the corners' winding: n . (e x f) < 0. Each product
    n_i e_j f_k carries at most 7 roundings (two differences, two products, three sums), so the error
-   of the sum is at most 8 u times the sum of their magnitudes, u = 2^-53. Zero and non-finite
-   normals are ignored. */
+   of the sum is at most 8 u times the sum of their magnitudes, u = 2^-53, unless coordinates are so
+   small that products underflow. Zero and non-finite normals are ignored. */
 static int stl_opposed(double corner[3][3], const double normal[3])
 {
     double sum = 0.0;
@@ -117,16 +117,16 @@ static int stl_read_facet(lrcsi_stl_walk *walk, size_t at)
 
 static int stl_read_binary(lrcsi_stl_walk *walk)
 {
-    if (walk->size < STL_HEADER) {
+    if (walk->size < LRCSI_STL_HEADER) {
         lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 0, 0, "file",
                            "an STL file: text, or a header and a count, 84 bytes", walk->size);
         lrcsi_where_add(walk->where, " bytes");
         return LRCS_E_TRUNCATED;
     }
-    uint32_t count = lrcsi_bytes_u32(walk->bytes + 80);
-    size_t held = (walk->size - STL_HEADER) / STL_FACET;
+    uint32_t count = lrcsi_bytes_u32(walk->bytes + STL_COUNT_AT);
+    size_t held = (walk->size - LRCSI_STL_HEADER) / STL_FACET;
     if (held < count) {
-        lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 80, 0, "facet count",
+        lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, STL_COUNT_AT, 0, "facet count",
                            "at most as many facets as the file has bytes for", count);
         lrcsi_where_add(walk->where, " with bytes for ");
         lrcsi_where_add_number(walk->where, held);
@@ -137,7 +137,7 @@ static int stl_read_binary(lrcsi_stl_walk *walk)
     }
     int status = LRCS_OK;
     for (size_t i = 0; status == LRCS_OK && i < count; i++) {
-        status = stl_read_facet(walk, STL_HEADER + STL_FACET * i);
+        status = stl_read_facet(walk, LRCSI_STL_HEADER + STL_FACET * i);
     }
     return status;
 }

@@ -8,6 +8,9 @@
 
 #include "base/bytes.h"
 
+/* A binary file begins with a title of 80 bytes and the number of facets. */
+#define LRCSI_STL_HEADER 84u
+
 typedef struct lrcsi_stl_walk {
     const unsigned char *bytes;
     size_t size;

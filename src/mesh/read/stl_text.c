@@ -125,12 +125,12 @@ static stl_place stl_begin(const unsigned char *bytes, size_t size)
     return (stl_place){bytes, size, lrcsi_text_mark((const char *)bytes, size), 1};
 }
 
-/* A binary file of fewer than 2^24 facets has a zero among its first 84 bytes, the highest byte of
-   its count; a text has none. For other files the words decide. */
+/* A binary file of fewer than 2^24 facets has a zero in its header, the highest byte of its
+   count; a text has none. For other files the words decide. */
 int lrcsi_stl_is_text(const unsigned char *bytes, size_t size)
 {
     stl_place place = stl_begin(bytes, size);
-    if (size == 0 || memchr(bytes, 0, size < 84 ? size : 84)) {
+    if (size == 0 || memchr(bytes, 0, size < LRCSI_STL_HEADER ? size : LRCSI_STL_HEADER)) {
         return 0;
     }
     if (stl_facet_follows(place)) {

@@ -12,9 +12,9 @@ typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;
     lrcsi_index names; /* bindings by kind and name or colour; materials of the recipe */
     int indexed;       /* 0: there is no index, and the recipe is searched */
-    /* Found by the functions that return materials; NULL in a plain binder. */
-    unsigned char
-        *matched; /* binding: 1 if it matched; of equal bindings only the last is marked */
+    /* Found by the functions that return materials, for each binding: 1 if it matched; of equal
+       bindings only the last is marked. NULL in a plain binder. */
+    unsigned char *matched;
 } lrcsi_binder;
 
 /* Bytes that lrcsi_binder_make takes (upper bound). */

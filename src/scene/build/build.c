@@ -122,8 +122,8 @@ static int gives_normals(const scene_builder *builder, uint32_t i)
            lrcsi_smooth_given(&builder->models[i]);
 }
 
-/* Counts what all parts add. divisions: part: those of its shape; NULL if they are not to be kept.
- */
+/* Counts what all parts add. divisions: part: those of its shape; NULL if they are not to
+   be kept. */
 static int count_scene(scene_builder *builder, lrcs_divisions *divisions, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;

@@ -127,8 +127,8 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
 /* The number of sectors N of a rim among other parts whose shadow is accurate enough. The shadow of
    a rim of radius R is uncertain over a strip of length 2 pi R and width 2 SECTOR_REACH R (pi/N)^2.
    With N = pi sqrt(RIM_FACTOR / tolerance) its area is 4 SECTOR_REACH / RIM_FACTOR, less than a
-   third, of the tolerance times the area of the disc that the rim bounds. 3.1416: pi, rounded up.
- */
+   third, of the tolerance times the area of the disc that the rim bounds. 3.1416: pi,
+   rounded up. */
 static double rim_corners(double tolerance)
 {
     return 3.1416 * sqrt(RIM_FACTOR / tolerance);
