@@ -118,7 +118,7 @@ static lrcsi_curve_terms integral_part(const lrcsi_curve_integral *integral,
 
 /* The contribution of a facet of which only the visible area is known. */
 static lrcsi_curve_terms curve_from_area(const lrcsi_curve_integral *integral,
-                                         const lrcsi_visible *visible)
+                                         const lrcsi_visible_area *visible)
 {
     lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
     if (!(visible->high > 0)) {
@@ -145,13 +145,14 @@ static lrcsi_curve_terms curve_from_area(const lrcsi_curve_integral *integral,
 }
 
 void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
-                            const lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
+                            const lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms)
 {
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
+        lrcsi_progress_report(view->progress, LRCS_PROGRESS_INTEGRATE, f,
+                              view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
             curve_terms[f] = curve_from_area(&integral, &visible[f]);
@@ -201,7 +202,7 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 /* The contribution of a facet with curved normals, from its visible pieces. Given: o, which has
    opened the facet, and is closed here. */
 static lrcsi_curve_terms curve_from_pieces(const lrcsi_curve_integral *integral, lrcsi_occlusion *o,
-                                           lrcsi_visible *visible)
+                                           lrcsi_visible_area *visible)
 {
     const lrcsi_target *target = &o->single.target;
     double area_err = lrcsi_occlude_corner_err(target);
@@ -212,7 +213,7 @@ static lrcsi_curve_terms curve_from_pieces(const lrcsi_curve_integral *integral,
                               o->single.piece.count, &sum);
     }
     area_err += o->single.piece_err;
-    *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
+    *visible = lrcsi_visible_area_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curve_terms part = integral_part(integral, &sum, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
                                           (visible->high - visible->low + area_err) +
@@ -223,7 +224,7 @@ static lrcsi_curve_terms curve_from_pieces(const lrcsi_curve_integral *integral,
 /* Clips facets and integrates: all, or, with areas from samples, those with curved normals that are
    partly visible. */
 static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_options *options,
-                      int sampled, lrcs_work *work, lrcsi_visible *visible,
+                      int sampled, lrcs_work *work, lrcsi_visible_area *visible,
                       lrcsi_curve_terms *curve_terms)
 {
     const lrcsi_view *view = classification->view;
@@ -237,8 +238,8 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
-                            count);
+        lrcsi_progress_report(
+            view->progress, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f, count);
         if (applies) {
             lrcsi_curve_integral_make(&context, f, &integral);
         }
@@ -262,14 +263,14 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
 
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                             const lrcsi_curve_options *options, lrcs_work *work,
-                            lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
+                            lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms)
 {
     return curve_clip(classification, options, 0, work, visible, curve_terms);
 }
 
 int lrcsi_curve_from_samples(lrcsi_classification *classification,
                              const lrcsi_curve_options *options, lrcs_work *work,
-                             lrcsi_visible *visible, lrcsi_curve_terms *curve_terms)
+                             lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms)
 {
     return curve_clip(classification, options, 1, work, visible, curve_terms);
 }

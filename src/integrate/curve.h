@@ -80,20 +80,20 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
    Given: visible[facet_count]. Returned: curve_terms[facet_count], 0 where lrcsi_curve_applies is
    0. */
 void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
-                            const lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
+                            const lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms);
 
 /* Clips every facet, as lrcsi_occlude_all, and integrates over the visible pieces of those to which
    lrcsi_curve_applies. Returned: visible[facet_count], curve_terms[facet_count]. Status: as
    lrcsi_occlude_all. */
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                             const lrcsi_curve_options *options, lrcs_work *work,
-                            lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
+                            lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms);
 
 /* The same with areas from samples, which give the area but not the region that is visible: only
    facets with curved normals that are partly visible are clipped. Given: visible[facet_count], of
    which the areas of clipped facets are replaced. */
 int lrcsi_curve_from_samples(lrcsi_classification *classification,
                              const lrcsi_curve_options *options, lrcs_work *work,
-                             lrcsi_visible *visible, lrcsi_curve_terms *curve_terms);
+                             lrcsi_visible_area *visible, lrcsi_curve_terms *curve_terms);
 
 #endif

@@ -26,7 +26,7 @@ static double visible_fraction(const lrcsi_sigma *run, uint32_t facet,
     if (!lrcsi_areas_is_summed(&areas, &run->view, facet)) {
         return 0;
     }
-    lrcsi_visible visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
+    lrcsi_visible_area visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
     return lrcsi_areas_fraction(visible.area, incidence->projected);
 }
 

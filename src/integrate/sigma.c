@@ -76,7 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     uint32_t size = options->resolution != 0 ? options->resolution : LRCSI_SIGMA_SIZE_MAX;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_areas_need(prepared, size));
     raster = lrcsi_work_add(raster, prepared->has_curved_normals ? exact : 0);
     if (options->accept != LRCS_ACCEPT_BOUND) {
         size_t preview = lrcsi_preview_need(prepared, size);

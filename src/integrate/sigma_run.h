@@ -38,12 +38,13 @@ typedef struct lrcsi_sigma {
     lrcs_work *work;
     lrcsi_view view;
     lrcsi_meter meter; /* limit on the steps of the visibility computation */
-    lrcsi_clear clear; /* shapes that are evaluated by their closed forms: method auto only */
-    lrcsi_plan plan;   /* is not changed once it is made */
-    int classified;    /* the classification is made, and the band if the plan needs it */
+    lrcsi_clear_shapes
+        clear;       /* shapes that are evaluated by their closed forms: method auto only */
+    lrcsi_plan plan; /* is not changed once it is made */
+    int classified;  /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
     lrcsi_proximity_band band;
-    lrcsi_visible *visible;         /* [facet_count]; NULL: the plan implies all areas */
+    lrcsi_visible_area *visible;    /* [facet_count]; NULL: the plan implies all areas */
     const unsigned char *answer;    /* as in lrcsi_areas */
     lrcsi_moment *moment_memory;    /* [facet_count]; NULL: moments are not wanted */
     const lrcsi_moment *moment;     /* as in lrcsi_areas */

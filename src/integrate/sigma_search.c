@@ -25,7 +25,7 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run->classified) {
         return LRCS_OK;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
@@ -62,7 +62,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
    it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
-static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
+static int run_raster(lrcsi_sigma *run, lrcsi_decisions *known, uint32_t size)
 {
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
@@ -73,9 +73,9 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     run->answer = NULL;
     run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status =
-            known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible, &undecided)
-                  : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        status = known ? lrcsi_visible_areas_from_samples(known, size, run->work, &raster,
+                                                          run->visible, &undecided)
+                       : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
     }
@@ -125,13 +125,13 @@ static int raster_ends(const lrcsi_sigma *run, int samples_only)
    areas are taken from the samples alone. */
 static int run_rasters(lrcsi_sigma *run, int samples_only)
 {
-    lrcsi_known known;
+    lrcsi_decisions known;
     size_t mark = run->work->used;
     uint32_t size = run->plan.size;
     int status = LRCS_OK;
     if (!samples_only) {
         status = run_classify(run, &run->meter);
-        status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
+        status = status == LRCS_OK ? lrcsi_decisions_make(&run->classification, run->work, &known)
                                    : status;
     }
     while (status == LRCS_OK) {
@@ -269,7 +269,7 @@ int lrcsi_sigma_search(lrcsi_sigma *run)
     if (status != LRCS_OK || run->request.last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
     if (run->plan.method == LRCS_METHOD_EXACT) {
         return run_exact(run, run->plan.reason);
     }

@@ -56,7 +56,7 @@ lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
                             &run->clear, &details);
 }
@@ -69,8 +69,8 @@ void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
     for (uint32_t f = 0; run->curve_terms && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         run->visible[f] = lrcsi_view_casts(view, f)
-                              ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
-                              : lrcsi_visible_exactly(0);
+                              ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
+                              : lrcsi_visible_area_exact(0);
     }
     if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);
@@ -99,11 +99,12 @@ static void areas_apply_proofs(lrcsi_sigma *run)
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_visible *visible = &run->visible[f];
+        lrcsi_visible_area *visible = &run->visible[f];
         int front = view->facing[f] > 0;
         if (front && run->plan.fronts_visible) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
+            lrcsi_visible_area known =
+                lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos);
             if (run->plan.shadows_forced) {
                 known.area = visible->area;
                 known.low = lrcsi_min(known.low, visible->low);
@@ -112,10 +113,10 @@ static void areas_apply_proofs(lrcsi_sigma *run)
             }
             *visible = known;
         }
-        *visible = lrcsi_visible_proved(view, f, *visible);
+        *visible = lrcsi_visible_area_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
-            *visible = lrcsi_visible_exactly(projected);
+            *visible = lrcsi_visible_area_exact(projected);
         }
     }
 }

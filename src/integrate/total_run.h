@@ -52,7 +52,7 @@ typedef struct lrcsi_total_run {
     const lrcsi_areas *areas;
     const lrcsi_curve_terms *curve_terms; /* NULL: all normals are flat */
     const lrcsi_proximity_band *band;     /* NULL: none was made */
-    const lrcsi_clear *clear;             /* NULL: no shape is evaluated by its closed form */
+    const lrcsi_clear_shapes *clear;      /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patches patches;

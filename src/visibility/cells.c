@@ -341,8 +341,7 @@ static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double pro
         const double *q = d->view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_max3(diameter, fabs(p[0] - q[0]), fabs(p[1] - q[1]));
     }
-    double extent = extent_of(c->view->prepared);
-    const lrcs_scene *scene = c->view->prepared->scene;
+    double extent = extent_of(d->view->prepared);
     int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * d->area[facet].strip_length);

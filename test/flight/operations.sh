@@ -7,8 +7,8 @@ folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
 questions='lrcsi_view_box_beside lrcsi_view_box_behind edge_crosses intersection_divides
-lrcsi_sample_covers_towards line_nearer lrcsi_intersection_find facet_apart lrcsi_cells_single_order sides_cover candidate_in_front
-component_ends lrcsi_cells_locate lrcsi_cells_facet_order event_slack grid_put'
+lrcsi_sample_covers_towards line_nearer lrcsi_intersection_find facet_apart lrcsi_facet_cells_order sides_cover candidate_in_front
+lrcsi_cells_segment_marked lrcsi_clip_locate lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_surface_make lrcsi_cubature_add cell_step'
 flags='-std=c11 -ffp-contract=off -O0'
@@ -42,7 +42,7 @@ for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' '
         BEGIN { wanted("questions", questions); wanted("parts", parts); }
         FNR == NR { facets = $1; intersections = $2; most_q = $3; most_c = $4; next }
         /^function / && ($2 in kind_of) { sum[kind_of[$2]] += $4 }
-        /^function process_(single_)?cell / { cells += $4 }
+        /^function process_(facet_)?cell / { cells += $4 }
         END { exit !(row("questions", most_q) + row("parts", most_c) == 2) }
         ' - "$folder/lrcs.c.gcov" || bad=1
 done
