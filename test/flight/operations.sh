@@ -42,7 +42,7 @@ for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' '
         BEGIN { wanted("questions", questions); wanted("parts", parts); }
         FNR == NR { facets = $1; intersections = $2; most_q = $3; most_c = $4; next }
         /^function / && ($2 in kind_of) { sum[kind_of[$2]] += $4 }
-        /^function process_(single_)?cell / { cells += $4 }
+        /^function process_(facet_)?cell / { cells += $4 }
         END { exit !(row("questions", most_q) + row("parts", most_c) == 2) }
         ' - "$folder/lrcs.c.gcov" || bad=1
 done

@@ -431,8 +431,7 @@ lrcsi_visible_area ref_occlude_area(ref_occluding *o)
    exceeds the area of the strips (integrate/tessellation.c), so each must be processed alone. */
 static int can_process_together(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->has_curved_shapes &&
-           !prepared->convex;
+    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->has_curved_shapes && !prepared->convex;
 }
 
 size_t ref_occlude_need(const lrcs_prepared *prepared)
