@@ -230,7 +230,7 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o = NULL;
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     int status = lrcsi_occlude_make(classification, options->meter, work, &o);
@@ -244,13 +244,13 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
             lrcsi_curve_integral_make(&context, f, &integral);
         }
         if (!sampled || (partly && applies)) {
-            lrcsi_occlude_open(&o, f);
-            if (applies && o.undecided) {
-                curve_terms[f] = curve_from_pieces(&integral, &o, &visible[f]);
+            lrcsi_occlude_open(o, f);
+            if (applies && o->undecided) {
+                curve_terms[f] = curve_from_pieces(&integral, o, &visible[f]);
                 lrcsi_curve_context_add(&context, curve_terms[f].glint + curve_terms[f].diffuse);
                 continue;
             }
-            visible[f] = lrcsi_visible_area_proved(view, f, lrcsi_occlude_area(&o));
+            visible[f] = lrcsi_visible_area_proved(view, f, lrcsi_occlude_area(o));
         }
         if (applies) {
             curve_terms[f] = curve_from_area(&integral, &visible[f]);

@@ -453,7 +453,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     const lrcs_run_options options = {.method = LRCS_METHOD_EXACT};
     const lrcsi_clear_shapes clear = {0};
     lrcsi_classification classification;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o = NULL;
     int status = lrcsi_view_face(p, pose, lrcsi_plan_backs(p, &options), work, view);
     status = status == LRCS_OK ? lrcsi_view_project(work, view) : status;
     if (status != LRCS_OK) {
@@ -473,7 +473,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
             lrcsi_view_casts(view, facet)) {
-            facet_add_profile(run, facet, &o);
+            facet_add_profile(run, facet, o);
         }
     }
     if (status != LRCS_OK || !p->has_curved_shapes || !lrcsi_tessellation_known(p, &run->plan)) {

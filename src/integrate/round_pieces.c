@@ -394,20 +394,6 @@ static void job_take_wall(pieces_job *job, uint32_t facet)
     }
 }
 
-/* What finds the visible pieces of facets; NULL if there is too little memory. */
-static lrcsi_occlusion *occlusion_make(lrcsi_classification *classification, lrcsi_meter *meter,
-                                       lrcs_work *work)
-{
-    lrcsi_occlusion *o = lrcsi_work_take(work, 1, sizeof *o);
-    return o && lrcsi_occlude_make(classification, meter, work, o) == LRCS_OK ? o : NULL;
-}
-
-size_t lrcsi_round_pieces_need(const lrcs_prepared *prepared)
-{
-    return lrcsi_work_add(lrcsi_work_bytes(1, sizeof(lrcsi_occlusion)),
-                          lrcsi_occlude_need(prepared));
-}
-
 /* 1. Which sectors: all of whose integrals and margins are known; the integrals over their pieces.
    2. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
@@ -418,7 +404,7 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
     pieces_job job = {.view = view, .plan = plan, .band = band, .visible = visible};
-    lrcsi_occlusion *o = NULL; /* not on the stack: it is large */
+    lrcsi_occlusion *o = NULL;
     lrcsi_round_sector sector;
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
@@ -435,8 +421,7 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
             !sector_is_candidate(&job, &sector) || !sector_has_margins(&job, &sector)) {
             continue;
         }
-        if (!o && !(o = occlusion_make(classification, meter, work))) {
-            work->used = mark;
+        if (!o && lrcsi_occlude_make(classification, meter, work, &o) != LRCS_OK) {
             return;
         }
         int known = 1;

@@ -38,9 +38,6 @@ typedef struct lrcsi_round_piece {
     double own;          /* bound on |T - M| that its own part causes */
 } lrcsi_round_piece;
 
-/* Bytes at most. */
-size_t lrcsi_round_pieces_need(const lrcs_prepared *prepared);
-
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
    whose hidden regions are marked. Returned: piece[facet_count]. Without enough memory, or if steps
    run out, no sector is found. */

@@ -75,8 +75,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LRCSI_SIGMA_SIZE_MAX;
-    size_t exact =
-        moments_wanted(prepared) ? lrcsi_round_pieces_need(prepared) : lrcsi_occlude_need(prepared);
+    size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
         lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_areas_need(prepared, size));
     raster = lrcsi_work_add(raster, prepared->has_curved_normals ? exact : 0);
@@ -125,9 +124,11 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
 {
     const lrcs_run_options *options = request->options;
     const lrcsi_view_backs backs = lrcsi_plan_backs(prepared, options);
-    *run = (lrcsi_sigma){.request = *request,
-                         .work = work,
-                         .meter.limit = options->steps != 0 ? options->steps : UINT64_MAX};
+    memset(run, 0,
+           sizeof *run); /* not a compound literal, which takes as much of the stack again */
+    run->request = *request;
+    run->work = work;
+    run->meter.limit = options->steps != 0 ? options->steps : UINT64_MAX;
     int status = lrcsi_view_face(prepared, pose, backs, work, &run->view);
     if (status == LRCS_OK) {
         run->view.progress = options->progress;

@@ -85,6 +85,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     size_t single = lrcsi_facet_cells_need(prepared);
     size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_query_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(1, sizeof(lrcsi_occlusion)));
     return lrcsi_work_add(need, single > cells ? single : cells);
 }
 
@@ -101,16 +102,16 @@ static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *mete
 }
 
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                       lrcsi_occlusion *o)
+                       lrcsi_occlusion **o)
 {
     size_t mark = work->used;
-    int status = occlude_begin(classification, meter, work, o);
-    status = status == LRCS_OK
-                 ? lrcsi_facet_cells_make(classification, o->meter, &o->facets, work, &o->single)
-                 : status;
-    if (status != LRCS_OK) {
-        work->used = mark;
+    lrcsi_occlusion *made = lrcsi_work_take(work, 1, sizeof *made);
+    int status = made ? occlude_begin(classification, meter, work, made) : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        status = lrcsi_facet_cells_make(classification, meter, &made->facets, work, &made->single);
     }
+    work->used = status == LRCS_OK ? work->used : mark;
+    *o = made;
     return status;
 }
 

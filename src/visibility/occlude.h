@@ -23,11 +23,12 @@ typedef struct lrcsi_occlusion {
 /* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
-/* Makes the data for all facets, which stay in the work area. Steps are taken from the meter; NULL:
+/* Makes the data for all facets. They stay in the work area, and so does *o itself, which is too
+   large for the stack. Steps are taken from the meter; NULL:
    no limit.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                       lrcsi_occlusion *o);
+                       lrcsi_occlusion **o);
 
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in

@@ -164,16 +164,16 @@ int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_
     ring_list list = {0};
     lrcsi_view view;
     lrcsi_classification classification;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o = NULL;
     int status = lrcsi_view_make(prepared, pose, work, &view);
     status = status == LRCS_OK ? lrcsi_classify_make(&view, NULL, work, &classification) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
-    status = status == LRCS_OK ? facets_add(&list, &o) : status;
+    status = status == LRCS_OK ? facets_add(&list, o) : status;
     if (status == LRCS_OK) {
         list = (ring_list){.ring_room = list.rings, .point_room = list.points};
         list.ring = lrcsi_work_take(work, list.ring_room, sizeof *list.ring);
         list.point = lrcsi_work_take(work, list.point_room, sizeof *list.point);
-        status = list.ring && list.point ? facets_add(&list, &o) : LRCS_E_MEMORY;
+        status = list.ring && list.point ? facets_add(&list, o) : LRCS_E_MEMORY;
     }
     work->used = mark;
     if (status != LRCS_OK) {

@@ -10,6 +10,7 @@
 #include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
 #include "visibility/depth_order.h"
 #include "visibility/edge_rectangle.h"
@@ -474,7 +475,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
 }
 
 /* Begins the fractions for the correspondence of points with the same projection, unless they
-   cannot be known. The facet must lie on a curved wall and face the laser, and every other part
+   cannot be known. The facet must lie on a round wall and face the laser, and every other part
    that is near it must be in front of its own part or behind it; what these proofs leave open is
    counted. */
 static int begin_above(band_job *job, uint32_t facet)
@@ -483,8 +484,9 @@ static int begin_above(band_job *job, uint32_t facet)
     const uint32_t own = band_part(job, facet);
     const lrcsi_part_set near = p->proximity.near[facet];
     double open = 0;
-    if (!p->scene->part[own].rigid || !(p->proximity.reach[own] > 0) ||
-        p->scene->facet_smooth[facet] == 0 || job->view->facing[facet] <= 0) {
+    if (!lrcsi_shape_is_round(p->scene->part[own].kind) || !p->scene->part[own].rigid ||
+        !(p->proximity.reach[own] > 0) || p->scene->facet_smooth[facet] == 0 ||
+        job->view->facing[facet] <= 0) {
         return 0;
     }
     for (uint32_t i = 0; i < p->scene->part_count && near != 0; i++) {

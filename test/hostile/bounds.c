@@ -307,7 +307,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
     static lrcsi_visible_area together[MOST];
     lrcsi_view view;
     lrcsi_classification classification;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o;
     if (lrcsi_view_make(prepared, pose, &work, &view) != LRCS_OK ||
         lrcsi_classify_make(&view, NULL, &work, &classification) != LRCS_OK ||
         lrcsi_occlude_make(&classification, NULL, &work, &o) != LRCS_OK) {
@@ -318,12 +318,12 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         wanted[f] = lrcsi_view_casts(&view, f) != 0;
         if (wanted[f]) {
-            lrcsi_occlude_open(&o, f);
-            lrcsi_visible_area alone = lrcsi_occlude_area(&o);
+            lrcsi_occlude_open(o, f);
+            lrcsi_visible_area alone = lrcsi_occlude_area(o);
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, NULL, &work, o.answer, wanted, decided, together, NULL);
+    lrcsi_cells_areas(&classification, NULL, &work, o->answer, wanted, decided, together, NULL);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         if (decided[f]) {
             check_bounds(c, &view, f, &together[f], 1);

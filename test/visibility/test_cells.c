@@ -72,10 +72,10 @@ static lrcsi_visible_area clip_with_moment(lrcsi_occlusion *o, uint32_t f)
     while (lrcsi_occlude_next(o)) {
         const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
                                   (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
-        add_piece(&o->single.piece, centre, first);
+        add_piece(o->single.piece, centre, first);
     }
     lrcsi_visible_area clipped = lrcsi_occlude_close(o);
-    const lrcsi_moment *by_pieces = &o->single.moment;
+    const lrcsi_moment *by_pieces = o->single.moment;
     double size = o->single.target.diameter;
     double rounding = 1e-14 * size * size * size;
     for (int k = 0; k < 2 && undecided && by_pieces->error < HUGE_VAL; k++) {
@@ -97,7 +97,7 @@ static uint32_t agree(const double direction[3])
     uint32_t left;
     turned(direction);
     uint32_t asked = ask(&left);
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o;
     assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
@@ -105,7 +105,7 @@ static uint32_t agree(const double direction[3])
         if (!lrcsi_view_casts(&view, f)) {
             continue;
         }
-        lrcsi_visible_area clipped = clip_with_moment(&o, f);
+        lrcsi_visible_area clipped = clip_with_moment(o, f);
         if (!open[f]) {
             double told = 1e-12 * lrcsi_view_projected(&view, f) + 1e-15 * extent * extent;
             check_most(found[f].high - found[f].area, told * (1 + 1e-9));

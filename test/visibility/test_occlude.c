@@ -11,10 +11,10 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 
 /* A level plate of two facets at height 0, seen from above, and whatever else was put there. */
-static lrcsi_occlusion open_scene(void)
+static lrcsi_occlusion *open_scene(void)
 {
     lrcs_pose pose;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
@@ -53,16 +53,16 @@ static void whole_facet_is_its_own_triangle(void **state)
     uint32_t pieces;
     double told;
     start();
-    lrcsi_occlusion o = open_scene();
-    check_rel(pieces_area(&o, 1, &pieces, &told), 0.5, 1e-15);
+    lrcsi_occlusion *o = open_scene();
+    check_rel(pieces_area(o, 1, &pieces, &told), 0.5, 1e-15);
     assert_int_equal(pieces, 1);
-    lrcsi_occlude_open(&o, 1);
-    assert_true(lrcsi_occlude_next(&o));
-    assert_int_equal(o.single.piece.count, 3);
-    assert_memory_equal(o.single.piece.corner, o.single.target.corner,
-                        sizeof o.single.target.corner);
-    assert_int_equal(o.single.target.facet, 1);
-    lrcsi_occlude_close(&o);
+    lrcsi_occlude_open(o, 1);
+    assert_true(lrcsi_occlude_next(o));
+    assert_int_equal(o->single.piece.count, 3);
+    assert_memory_equal(o->single.piece.corner, o->single.target.corner,
+                        sizeof o->single.target.corner);
+    assert_int_equal(o->single.target.facet, 1);
+    lrcsi_occlude_close(o);
 }
 
 static void hidden_and_edge_on_facets_have_no_pieces(void **state)
@@ -75,10 +75,10 @@ static void hidden_and_edge_on_facets_have_no_pieces(void **state)
                 (const double[3]){0, 4, 0});
     scene_plate(&scene, (const double[3]){5, 0, 0}, (const double[3]){1, 0, 0},
                 (const double[3]){0, 0, 1});
-    lrcsi_occlusion o = open_scene();
+    lrcsi_occlusion *o = open_scene();
     static const uint32_t none[] = {0, 1, 4, 5};
     for (int i = 0; i < 4; i++) {
-        check_same(pieces_area(&o, none[i], &pieces, &told), 0);
+        check_same(pieces_area(o, none[i], &pieces, &told), 0);
         check_same(told, 0);
         assert_int_equal(pieces, 0);
     }
@@ -95,14 +95,14 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
         scene_plate(&scene, (const double[3]){0.125 * (i % 8), 0.125 * (i / 8), 1},
                     (const double[3]){0.0625, 0, 0}, (const double[3]){0, 0.0625, 0});
     }
-    lrcsi_occlusion o = open_scene();
-    double first = pieces_area(&o, 0, &pieces, &told);
+    lrcsi_occlusion *o = open_scene();
+    double first = pieces_area(o, 0, &pieces, &told);
     check_same(told, first);
     assert_true(pieces > 20);
-    double second = pieces_area(&o, 1, &pieces, &told);
+    double second = pieces_area(o, 1, &pieces, &told);
     check_same(told, second);
     check_rel(first + second, 0.75, 1e-14);
-    check_same(pieces_area(&o, 0, &pieces, &told), first); /* however often it is asked */
+    check_same(pieces_area(o, 0, &pieces, &told), first); /* however often it is asked */
     check_same(told, first);
 }
 
@@ -112,14 +112,14 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
 static double share_left(const double direction[3], double *error)
 {
     lrcs_pose pose;
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
-    lrcsi_occlude_open(&o, 0);
-    lrcsi_visible_area seen = lrcsi_occlude_area(&o);
+    lrcsi_occlude_open(o, 0);
+    lrcsi_visible_area seen = lrcsi_occlude_area(o);
     double whole = lrcsi_view_incidence(&view, 0).projected;
     *error = (seen.high - seen.low) / whole;
     return seen.area / whole;
@@ -316,7 +316,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
     for (int n = 24; n <= 52; n += 4) {
         const double from[3] = {0, ldexp(1, -n), 1};
         double error = 0;
-        lrcsi_occlusion o;
+        lrcsi_occlusion *o;
         scene_start(&scene);
         scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){0, 0, 1},
                        (const double[3]){1, 0, 0});
@@ -325,14 +325,14 @@ static void a_needle_shows_its_share_in_pieces(void **state)
         check_abs(share_left(from, &error), 0.75, 1e-14);
         check_most(error, 1e-12);
         assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
-        lrcsi_occlude_open(&o, 0);
+        lrcsi_occlude_open(o, 0);
         double area = 0;
-        while (lrcsi_occlude_next(&o)) {
-            area += lrcsi_clip_area(&o.single.piece);
+        while (lrcsi_occlude_next(o)) {
+            area += lrcsi_clip_area(&o->single.piece);
         }
-        double off =
-            o.single.piece_err + 20 * 0x1p-53 * o.single.target.reach * o.single.target.perimeter;
-        lrcsi_visible_area seen = lrcsi_occlude_close(&o);
+        double off = o->single.piece_err +
+                     20 * 0x1p-53 * o->single.target.reach * o->single.target.perimeter;
+        lrcsi_visible_area seen = lrcsi_occlude_close(o);
         check_abs(area, seen.area, off);
         check_most(off, 1e-14);
         assert_true(seen.area > 0);
@@ -365,13 +365,13 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
 {
     (void)state;
     fan_over_plate();
-    lrcsi_occlusion o = open_scene();
-    lrcsi_occlude_open(&o, 0);
+    lrcsi_occlusion *o = open_scene();
+    lrcsi_occlude_open(o, 0);
     int steps = 0;
-    while (lrcsi_occlude_next(&o)) {
+    while (lrcsi_occlude_next(o)) {
         steps++;
     }
-    lrcsi_visible_area seen = lrcsi_occlude_close(&o);
+    lrcsi_visible_area seen = lrcsi_occlude_close(o);
     long double sector = 0.25L * 0.5L * sinl(2 * SCENE_PI / SECTORS);
     long double truth = (8 - SECTORS * sector) / 64; /* scaled by 1/8 */
     check_abs(seen.area, (double)truth, 1e-15);
