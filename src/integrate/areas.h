@@ -15,8 +15,8 @@
 typedef struct lrcsi_areas {
     const lrcsi_visible_area *visible; /* NULL: method facet */
     const unsigned char *answer;
-    const lrcsi_moment *moment;     /* of the visible regions of all facets; NULL: not known */
-    const lrcsi_round_piece *piece; /* what facets on curved walls add; NULL: not known */
+    const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
+    const lrcsi_round_terms *round_terms; /* what facets on curved walls add; NULL: not known */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */
@@ -26,9 +26,11 @@ static inline int lrcsi_areas_answered(const lrcsi_areas *areas, uint32_t facet)
 }
 
 /* What a facet on a curved wall adds, or NULL if that is not known. */
-static inline const lrcsi_round_piece *lrcsi_areas_piece(const lrcsi_areas *areas, uint32_t facet)
+static inline const lrcsi_round_terms *lrcsi_areas_round_terms(const lrcsi_areas *areas,
+                                                               uint32_t facet)
 {
-    return areas->piece && areas->piece[facet].known ? &areas->piece[facet] : NULL;
+    return areas->round_terms && areas->round_terms[facet].known ? &areas->round_terms[facet]
+                                                                 : NULL;
 }
 
 /* The visible area of a facet of given incidence. */

@@ -25,14 +25,11 @@
 #define REMAINDER_MAX 0x1p-10
 /* A triangle is divided into at most the square of this number. */
 #define DIVISIONS_MAX 8
-/* The largest distance of a facet from the true surface along d, as a multiple of its part's reach;
-   the least cosine of a facet, and the largest turn of normals over a patch. The surface is then
-   inclined by at most arccos(0.25) + 0.12 rad, with a tangent below 8: above a margin, which is at
-   most 2 reaches wide, it is within 12 + 2 (1 + 8) = 30 reaches of the facet
-   (visibility/proximity_band.h, 11). */
+/* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
+   Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
+   inclination is at most 8 (integrate/round_sector.h), the surface is then within 12 + 2 (1 + 8) =
+   30 reaches of the facet (visibility/proximity_band.h, 11). */
 #define MAX_REACHES 12.0
-#define MIN_COSINE  0.25
-#define MAX_TURN    0.12
 
 typedef struct pieces_job {
     const lrcsi_view *view;
@@ -83,7 +80,9 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
     return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_ROUND_UPWARD};
 }
 
-/* Adds the integral of G over the triangle `corner`, of the given area, to a sum. */
+/* Adds the integral of G over the triangle `corner`, of the given area, to a sum. The weight of a
+   point and the products with it have at most 16 roundings; that of the point's position is far
+   below the position_err that at.error includes (integrate/round_surface.c). */
 static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
                          const double corner[3][2], double area, const lrcsi_mean_rule *rule,
                          lrcsi_round_sum *sum)
@@ -190,18 +189,12 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* The largest distance of a facet from the true surface along d is MAX_REACHES times its part's
-   reach (visibility/proximity_band.h, 11). */
-#define MAX_REACHES 12.0
-#define MIN_COSINE  0.25
-#define MAX_TURN    0.12
-
 /* A bound on G above a facet; infinite if the surface is not known, or too far away. Because the
    wall is convex, its height along d is a concave function on the view plane: it lies between its
    linear interpolation over the corners, and its tangent plane at the centre. So its distance from
    the facet is at most the largest distance of either from the facet's corners. The normals above a
-   facet turn from its own by at most `turn` on its own patch, and by no more than twice that on
-   those next to it. */
+   facet turn from its own by at most `turn` on its own patch. On a patch next to it they turn by at
+   most 2 `turn` from those on the common border, so by 3 `turn` from its own. */
 static double facet_bound(const pieces_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -231,16 +224,15 @@ static double facet_bound(const pieces_job *job, uint32_t facet)
         apart = lrcsi_max(apart, fabs(lrcsi_round_height(surface, &centre) - slope / centre.s - z));
     }
     lrcsi_reflection bound = lrcsi_reflect_bound(&job->wall.brdf, atan(sqrt(incidence.tan2)),
-                                                 2 * surface->part->bounds.patch.turn);
-    return incidence.cos_theta >= MIN_COSINE && surface->part->bounds.patch.turn <= MAX_TURN &&
-                   apart < MAX_REACHES * p->proximity.reach[p->scene->facet_part[facet]]
+                                                 3 * surface->part->bounds.patch.turn);
+    return apart < MAX_REACHES * p->proximity.reach[p->scene->facet_part[facet]]
                ? (bound.glint + bound.diffuse) * LRCSI_ROUND_UPWARD
                : HUGE_VAL;
 }
 
 /* Integrates over the visible pieces of a facet. Returns 0 if that is not possible. */
 static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t facet,
-                           lrcsi_round_piece *piece)
+                           lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = job->view;
     const lrcsi_target *target = &o->single.target;
@@ -267,13 +259,12 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                 !target->needle &&
                 (!(area > 0) || triangle_integrate(job, (const double(*)[2])corner, area, &sum));
         }
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter;
     }
-    area_err += o->undecided ? o->single.piece_err : 0;
+    area_err += lrcsi_occlude_corner_err(target) + (o->undecided ? o->single.piece_err : 0);
     lrcsi_visible_area area = lrcsi_occlude_close(o);
-    double gain = lrcsi_min(job->band->gain_above[facet] * projected, projected - area.low);
-    double loss = lrcsi_min(job->band->loss_above[facet] * projected, area.high);
-    *piece = (lrcsi_round_piece){.known = 1,
+    double gain = lrcsi_min(job->band->gain_aligned[facet] * projected, projected - area.low);
+    double loss = lrcsi_min(job->band->loss_aligned[facet] * projected, area.high);
+    *terms = (lrcsi_round_terms){.known = 1,
                                  .glint = sum.glint,
                                  .diffuse = sum.diffuse,
                                  .rounding = sum.rounding,
@@ -300,7 +291,7 @@ static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    return !p->skip[facet] && job->view->facing[facet] > 0 && job->band->gain_above[facet] >= 0 &&
+    return !p->skip[facet] && job->view->facing[facet] > 0 && job->band->gain_aligned[facet] >= 0 &&
            lrcsi_shape_is_round(part->kind) && part->rigid && lrcsi_patch_exists(p, facet);
 }
 
@@ -347,7 +338,7 @@ static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrc
    visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
 static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
                                const lrcsi_round_sector *sector, lrcsi_meter *meter,
-                               lrcsi_round_piece *piece)
+                               lrcsi_round_terms *terms)
 {
     const double reach = job->view->prepared->proximity.reach[job->wall.part];
     const uint32_t to =
@@ -355,7 +346,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
         lrcsi_round_margin margin;
-        if (side->neighbour != LRCS_NONE && piece[side->neighbour].known) {
+        if (side->neighbour != LRCS_NONE && terms[side->neighbour].known) {
             continue;
         }
         int state = side_state(job, facets, side, meter);
@@ -364,12 +355,12 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
         }
         (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* known, or it were not used */
         if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
-            piece[to].glint += margin.sum.glint;
-            piece[to].diffuse += margin.sum.diffuse;
-            piece[to].rounding += margin.sum.rounding;
-            piece[to].own += margin.sum.remainder;
+            terms[to].glint += margin.sum.glint;
+            terms[to].diffuse += margin.sum.diffuse;
+            terms[to].rounding += margin.sum.rounding;
+            terms[to].own += margin.sum.remainder;
         } else {
-            piece[to].own += margin.largest;
+            terms[to].own += margin.largest;
         }
     }
 }
@@ -398,7 +389,7 @@ static void job_take_wall(pieces_job *job, uint32_t facet)
    2. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
-                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_piece *piece)
+                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
@@ -409,10 +400,10 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
     for (uint32_t f = 0; f < count; f++) {
-        piece[f].known = 0;
+        terms[f].known = 0;
     }
     for (uint32_t f = 0; f < count && plan->patches; f++) { /* 1 */
-        if (piece[f].known || !facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
+        if (terms[f].known || !facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
             continue;
         }
         job_take_wall(&job, f);
@@ -426,22 +417,22 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
         }
         int known = 1;
         for (int i = 0; i < sector.facets && known; i++) {
-            known = facet_integrate(&job, o, sector.facet[i], &piece[sector.facet[i]]);
+            known = facet_integrate(&job, o, sector.facet[i], &terms[sector.facet[i]]);
         }
         for (int i = 0; i < sector.facets; i++) {
-            piece[sector.facet[i]].known = known;
+            terms[sector.facet[i]].known = known;
         }
     }
     for (uint32_t f = 0; f < count && o; f++) { /* 2 */
-        if (piece[f].known) {
+        if (terms[f].known) {
             job_take_wall(&job, f);
             if (lrcsi_round_sector_make(&job.wall, f, &sector) && sector.facet[0] == f) {
-                sector_add_margins(&job, &o->facets, &sector, meter, piece);
+                sector_add_margins(&job, &o->facets, &sector, meter, terms);
             }
         }
     }
     work->used = mark;
     for (uint32_t f = 0; f < count && meter->spent; f++) {
-        piece[f].known = 0;
+        terms[f].known = 0;
     }
 }

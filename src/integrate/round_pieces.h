@@ -8,7 +8,7 @@
    (integrate/round_surface.h), w 1 where a facet is visible and 0 where it is not, and v the same
    for the true surface, both as functions on the view plane. The truth of C is T = Int_U' G v. Used
    is M = sum over f of Int_f' G w, and what is between U' and f' along the border of C.
-   1. Within the facets of C, v and w differ only on the fractions gain_above and loss_above of
+   1. Within the facets of C, v and w differ only on the fractions gain_aligned and loss_aligned of
       visibility/proximity_band.h, 11.
    2. Inside C, every point of the view plane belongs to one facet and to one patch. At the border
       it may belong to one of both only. A side of a sector is a segment of f' and an arc of U'; the
@@ -29,20 +29,20 @@
 #include "visibility/proximity_band.h"
 
 /* What a facet of such a sector adds, scaled, without the factor 4 pi. */
-typedef struct lrcsi_round_piece {
+typedef struct lrcsi_round_terms {
     int known;             /* 0: the facet is in no such sector */
     double glint, diffuse; /* M */
     double rounding;
     double visibility;   /* bound on the error of its visible area */
     double above, below; /* bounds on T - M and M - T that other parts cause */
     double own;          /* bound on |T - M| that its own part causes */
-} lrcsi_round_piece;
+} lrcsi_round_terms;
 
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
-   whose hidden regions are marked. Returned: piece[facet_count]. Without enough memory, or if steps
+   whose hidden regions are marked. Returned: terms[facet_count]. Without enough memory, or if steps
    run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
-                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_piece *piece);
+                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms);
 
 #endif

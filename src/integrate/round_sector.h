@@ -66,7 +66,8 @@ typedef struct lrcsi_round_margin {
     double largest, width;
 } lrcsi_round_margin;
 
-/* Returns 0 if it is not known. */
+/* Returns 0 if it is not known, or if the tangent of the true surface's inclination to the view
+   plane may exceed 8 above it. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin);
 

@@ -69,7 +69,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     if (moments_wanted(prepared)) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_piece)));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_terms)));
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -105,13 +105,14 @@ static int run_take(lrcsi_sigma *run)
     run->moment_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    run->piece_memory =
-        moments ? lrcsi_work_take(run->work, facets, sizeof *run->piece_memory) : NULL;
+    run->round_terms_memory =
+        moments ? lrcsi_work_take(run->work, facets, sizeof *run->round_terms_memory) : NULL;
     run->curve_terms =
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
     return (run->visible || !areas) &&
-                   ((run->moment_memory && run->corrected && run->piece_memory) || !moments) &&
+                   ((run->moment_memory && run->corrected && run->round_terms_memory) ||
+                    !moments) &&
                    ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;

@@ -44,15 +44,15 @@ typedef struct lrcsi_sigma {
     int classified;  /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
     lrcsi_proximity_band band;
-    lrcsi_visible_area *visible;     /* [facet_count]; NULL: the plan implies all areas */
-    const unsigned char *answer;     /* as in lrcsi_areas */
-    lrcsi_moment *moment_memory;     /* [facet_count]; NULL: moments are not wanted */
-    const lrcsi_moment *moment;      /* as in lrcsi_areas */
-    unsigned char *corrected;        /* as in lrcsi_total_details */
-    lrcsi_round_piece *piece_memory; /* [facet_count]; NULL: pieces are not wanted */
-    const lrcsi_round_piece *piece;  /* as in lrcsi_areas */
-    lrcsi_curve_terms *curve_terms;  /* [facet_count]; NULL: all normals are flat */
-    lrcsi_cubature_cell *stack;      /* NULL: all normals are flat */
+    lrcsi_visible_area *visible;           /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer;           /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory;           /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;            /* as in lrcsi_areas */
+    unsigned char *corrected;              /* as in lrcsi_total_details */
+    lrcsi_round_terms *round_terms_memory; /* [facet_count]; NULL: pieces are not wanted */
+    const lrcsi_round_terms *round_terms;  /* as in lrcsi_areas */
+    lrcsi_curve_terms *curve_terms;        /* [facet_count]; NULL: all normals are flat */
+    lrcsi_cubature_cell *stack;            /* NULL: all normals are flat */
     lrcsi_outcome outcome;
 } lrcsi_sigma;
 

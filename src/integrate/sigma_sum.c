@@ -54,7 +54,7 @@ static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
 
 lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->piece};
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
     lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
@@ -149,11 +149,11 @@ void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run_band(run)) {
         lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
     }
-    run->piece = NULL;
+    run->round_terms = NULL;
     if (run_band(run) && run->moment && !run->request.derivatives) {
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->band, run->visible, meter,
-                                run->work, run->piece_memory);
-        run->piece = run->piece_memory;
+                                run->work, run->round_terms_memory);
+        run->round_terms = run->round_terms_memory;
     }
     run->outcome.total = lrcsi_sigma_total(run, NULL);
 }

@@ -77,15 +77,15 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
         lrcsi_total_record(run, facet, curve_terms->glint, curve_terms->diffuse);
         return;
     }
-    const lrcsi_round_piece *piece = lrcsi_areas_piece(run->areas, facet);
-    if (piece) {
-        double glint = LRCS_FOUR_PI * piece->glint;
-        double diffuse = LRCS_FOUR_PI * piece->diffuse;
+    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
+    if (wall) {
+        double glint = LRCS_FOUR_PI * wall->glint;
+        double diffuse = LRCS_FOUR_PI * wall->diffuse;
         lrcsi_sum_add(&sums->glint, glint);
         lrcsi_sum_add(&sums->diffuse, diffuse);
-        sums->visibility += LRCS_FOUR_PI * piece->visibility;
-        sums->rounding += LRCS_FOUR_PI * piece->rounding + 8 * LRCSI_U * (glint + diffuse) +
-                          LRCSI_FACET_UNDERFLOW;
+        sums->visibility += LRCS_FOUR_PI * wall->visibility;
+        sums->rounding += LRCS_FOUR_PI * wall->rounding +
+                          8 * LRCSI_U * (fabs(glint) + fabs(diffuse)) + LRCSI_FACET_UNDERFLOW;
         lrcsi_total_record(run, facet, glint, diffuse);
         return;
     }
@@ -154,14 +154,14 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error, 
 
 /* Adds the tessellation error of a facet on a wall whose visible pieces are known: what other parts
    cause, and what its own part causes. */
-static void add_piece_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_piece *piece)
+static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_terms *wall)
 {
-    run->sums.above += LRCS_FOUR_PI * (piece->above + piece->own);
-    run->sums.below += LRCS_FOUR_PI * (piece->below + piece->own);
+    run->sums.above += LRCS_FOUR_PI * (wall->above + wall->own);
+    run->sums.below += LRCS_FOUR_PI * (wall->below + wall->own);
     if (run->details.part_error) {
         uint32_t own = run->view->prepared->scene->facet_part[facet];
-        run->details.part_error[own] += LRCS_FOUR_PI * piece->own;
-        add_part_errors(run, facet, LRCS_FOUR_PI * fmax(piece->above, piece->below), 0);
+        run->details.part_error[own] += LRCS_FOUR_PI * wall->own;
+        add_part_errors(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below), 0);
     }
 }
 
@@ -186,12 +186,12 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
 void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
                                   const lrcsi_incidence *incidence)
 {
-    const lrcsi_round_piece *piece = lrcsi_areas_piece(run->areas, facet);
+    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
     if (lrcsi_total_in_clear_shape(run, facet)) {
         return;
     }
-    if (piece) {
-        add_piece_errors(run, facet, piece);
+    if (wall) {
+        add_round_errors(run, facet, wall);
         return;
     }
     if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {

@@ -60,7 +60,7 @@ double lrcsi_proximity_slack_across(const lrcs_prepared *p, uint32_t part, uint3
                : lrcsi_min(slack, theirs + lateral + LRCSI_PROXIMITY_ERR);
 }
 
-double lrcsi_proximity_slack_above(const lrcs_prepared *p, uint32_t other)
+double lrcsi_proximity_slack_aligned(const lrcs_prepared *p, uint32_t other)
 {
     double theirs = p->proximity.hausdorff[other];
     return theirs > 0 ? (part_is_open(p, other) ? 2 : 1) * theirs + LRCSI_PROXIMITY_ERR : 0;

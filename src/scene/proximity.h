@@ -27,7 +27,7 @@ double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part
 
 /* The slack in projection where points of the true surface correspond to points of facets of the
    same projection (visibility/proximity_band.h, 11). */
-double lrcsi_proximity_slack_above(const lrcs_prepared *prepared, uint32_t other);
+double lrcsi_proximity_slack_aligned(const lrcs_prepared *prepared, uint32_t other);
 
 /* How far points of the true surface may be from their images on a facet: by at most `bound[i]`
    along each of three perpendicular directions in the body frame; and by at most `reach`. On the

@@ -110,8 +110,11 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     if (status == LRCS_OK) {
         status = lrcsi_facet_cells_make(classification, meter, &made->facets, work, &made->single);
     }
-    work->used = status == LRCS_OK ? work->used : mark;
-    *o = made;
+    if (status == LRCS_OK) {
+        *o = made;
+    } else {
+        work->used = mark;
+    }
     return status;
 }
 

@@ -48,14 +48,14 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     double *mismatch, *gain, *loss, *rows;
-    double *gain_above, *loss_above;
+    double *gain_aligned, *loss_aligned;
     unsigned char *free_sides;
     lrcsi_part_set *parts;
     lrcsi_proximity_events events;
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
                          and of its facets; gain < 0: not computed yet */
     uint32_t *seen[2];          /* event: 1 + the last facet for which it was considered, without
-                         and with edge_search.above */
+                         and with edge_search.aligned */
     band_box *box;              /* part: that of its facets in the view */
     lrcsi_outline *outline;     /* part */
     const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
@@ -117,14 +117,14 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
    unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
    can. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double lateral,
-                          int above)
+                          int aligned)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
-    if (above) {
+    if (aligned) {
         return job->events.part[event] == part
                    ? 0
-                   : lrcsi_proximity_slack_above(p, job->events.part[event]);
+                   : lrcsi_proximity_slack_aligned(p, job->events.part[event]);
     }
     if (job->events.part[event] == part) {
         const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
@@ -141,7 +141,7 @@ typedef struct facet_search {
     int inside; /* the laser may see the facet through an opening of its own part */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
-    int above; /* 1: points of facet and true surface correspond if their projections are equal */
+    int aligned; /* 1: points of facet and true surface correspond if their projections are equal */
 } facet_search;
 
 static facet_search search_begin(const band_job *job, uint32_t facet)
@@ -298,7 +298,7 @@ static lrcsi_edge_rectangle event_rectangle(const band_job *job, uint32_t facet,
     const lrcsi_topology *topology = &job->view->prepared->topology;
     lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
         job->view, facet, &topology->edge[job->events.edge[event]], slack);
-    if (box.has_sides && !search->above) {
+    if (box.has_sides && !search->aligned) {
         double across = lrcsi_displacement_along(&search->displacement, box.across) +
                         box.rotation_err * search->lateral;
         across = event_slack(job, facet, event, lrcsi_min(across, search->lateral), 0) + wider;
@@ -339,7 +339,7 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
         search->displacement = lrcsi_proximity_displacement(p, facet);
         search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
     }
-    double slack = event_slack(job, facet, event, search->lateral, search->above);
+    double slack = event_slack(job, facet, event, search->lateral, search->aligned);
     double err = 0;
     if (!(slack > 0)) {
         return 0;
@@ -354,7 +354,7 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(job->view, facet, &box);
     if (slice.count == 0 || (!is_own && lrcsi_edge_rectangle_behind(
                                             job->view, facet, edge,
-                                            (search->above ? LRCSI_PROXIMITY_NEAR : 1) *
+                                            (search->aligned ? LRCSI_PROXIMITY_NEAR : 1) *
                                                 lrcsi_proximity_slack(p, band_part(job, facet),
                                                                       job->events.part[event])))) {
         return 0;
@@ -377,7 +377,7 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
     if (in_front) { /* 5 */
-        double delta = (search->above ? 0 : search->lateral) + err;
+        double delta = (search->aligned ? 0 : search->lateral) + err;
         double gain;
         double loss;
         outline_fractions(job, facet, event, delta, &gain, &loss);
@@ -410,7 +410,7 @@ static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, face
     }
     const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
         view, facet, edge,
-        lrcsi_proximity_slack_above(p, job->events.part[event]) + 2 * p->proximity.reach[own]);
+        lrcsi_proximity_slack_aligned(p, job->events.part[event]) + 2 * p->proximity.reach[own]);
     for (int k = 0; k < 3; k++) {
         if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
                                        view->point[corner[(k + 1) % 3]].x)) {
@@ -424,15 +424,15 @@ static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, face
 static void add_event(band_job *job, uint32_t facet, uint32_t event, facet_search *search)
 {
     event_fractions f;
-    if (search->above) {
+    if (search->aligned) {
         mark_sides(job, facet, event, search);
     }
     if (!event_fractions_make(job, facet, event, search, &f)) {
         return;
     }
-    if (search->above) {
-        job->gain_above[facet] += f.gain + f.unproved;
-        job->loss_above[facet] += f.loss + f.unproved;
+    if (search->aligned) {
+        job->gain_aligned[facet] += f.gain + f.unproved;
+        job->loss_aligned[facet] += f.loss + f.unproved;
         return;
     }
     add_unproved(job, facet, job->events.part[event], f.unproved);
@@ -452,7 +452,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->where.low, search->where.high);
     lrcsi_grid_rect cells = lrcsi_grid_buckets(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
-    uint32_t *seen = job->seen[search->above];
+    uint32_t *seen = job->seen[search->aligned];
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->where.side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
@@ -461,7 +461,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
-            if (!search->above && job->gain[facet] >= 1 && job->loss[facet] >= 1) {
+            if (!search->aligned && job->gain[facet] >= 1 && job->loss[facet] >= 1) {
                 job->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
                 return 1;
             }
@@ -478,7 +478,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
    cannot be known. The facet must lie on a round wall and face the laser, and every other part
    that is near it must be in front of its own part or behind it; what these proofs leave open is
    counted. */
-static int begin_above(band_job *job, uint32_t facet)
+static int begin_aligned(band_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t own = band_part(job, facet);
@@ -501,7 +501,7 @@ static int begin_above(band_job *job, uint32_t facet)
         }
         open += unproved;
     }
-    job->gain_above[facet] = job->loss_above[facet] = open;
+    job->gain_aligned[facet] = job->loss_aligned[facet] = open;
     job->free_sides[facet] = 7;
     return 1;
 }
@@ -527,10 +527,10 @@ static void facet_fractions(band_job *job, uint32_t facet)
     if (!add_events(job, facet, &search)) {
         add_both(job, facet, 1, LRCSI_PART_SET_ALL);
     }
-    if (begin_above(job, facet)) {
-        search.above = 1;
+    if (begin_aligned(job, facet)) {
+        search.aligned = 1;
         if (!add_events(job, facet, &search)) {
-            job->gain_above[facet] = -1;
+            job->gain_aligned[facet] = -1;
         }
     }
     if (reach > 0 && fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
@@ -646,7 +646,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
         add_pairs(job); /* 3 */
         band_boxes(job);
         for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            job->gain_above[f] = -1;
+            job->gain_aligned[f] = -1;
             if (facet_matters(job->view, f)) {
                 facet_fractions(job, f); /* 4 */
             }
@@ -696,8 +696,8 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
-    m.gain_above = lrcsi_work_take(work, facets, sizeof *m.gain_above);
-    m.loss_above = lrcsi_work_take_zero(work, facets, sizeof *m.loss_above);
+    m.gain_aligned = lrcsi_work_take(work, facets, sizeof *m.gain_aligned);
+    m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.free_sides = lrcsi_work_take_zero(work, facets, 1);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
@@ -708,11 +708,11 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
                     .gain = m.gain,
                     .loss = m.loss,
                     .rows = m.rows,
-                    .gain_above = m.gain_above,
-                    .loss_above = m.loss_above,
+                    .gain_aligned = m.gain_aligned,
+                    .loss_aligned = m.loss_aligned,
                     .free_sides = m.free_sides,
                     .parts = m.parts};
-    int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_above && m.loss_above &&
+    int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
                          m.free_sides && m.parts && m.region && m.hidden
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;

@@ -129,12 +129,12 @@
    from y. Where both parts touch the plane to within rounding, the fraction of the facet and of its
    patch that lies within rounding of it counts as gained and lost.
 
-   11. The same projection. Let x now be the point of the true surface whose projection is that of
-   y, at a distance of at most 30 e_P. Let every other part Q be in front of P or behind it as in
-   10, or have no facet within 32 slacks of the facet of y (scene/proximity.h). Then (1) need not be
-   considered, and Q hides x if and only if its facets hide y, unless an event edge of Q is, in
-   projection, within r' of both and not 64 slacks behind y, where r' is k_Q or, if Q is open, 2
-   k_Q: the slack for e_P = 0. Proof:
+   11. Aligned points. Let x now be the point of the true surface whose projection is that of
+   y, so that both lie on a line along d, at a distance of at most 30 e_P. Let every other part Q be
+   in front of P or behind it as in 10, or have no facet within 32 slacks of the facet of y
+   (scene/proximity.h). Then (1) need not be considered, and Q hides x if and only if its facets
+   hide y, unless an event edge of Q is, in projection, within r' of both and not 64 slacks behind
+   y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P = 0. Proof:
    - If Q is behind P, it hides neither.
    - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
      a point z changes only where the projection of z crosses an event edge. So the steps b to e of
@@ -157,12 +157,12 @@
 
 typedef struct lrcsi_proximity_band {
     lrcsi_classification *classification;
-    double *mismatch;   /* facet: fraction of its area where visibility may differ, 0 .. 1 */
-    double *gain;       /* facet: fraction that the facets hide and the true shapes may not */
-    double *loss;       /* facet: fraction that the true shapes may hide and the facets do not */
-    double *rows;       /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
-    double *gain_above; /* facet: the gain of 11; negative: it is not known */
-    double *loss_above; /* facet: the loss of 11, if that is known */
+    double *mismatch; /* facet: fraction of its area where visibility may differ, 0 .. 1 */
+    double *gain;     /* facet: fraction that the facets hide and the true shapes may not */
+    double *loss;     /* facet: fraction that the true shapes may hide and the facets do not */
+    double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    double *gain_aligned;      /* facet: the gain of 11; negative: it is not known */
+    double *loss_aligned;      /* facet: the loss of 11, if that is known */
     unsigned char *free_sides; /* facet: bit k is 1 if no event edge of another part is near its
                                   side from corner k to k + 1 (11) */
     lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
