@@ -475,6 +475,11 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
            lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patches->negligible);
 }
 
+static int same_brdf(const lrcs_brdf *a, const lrcs_brdf *b)
+{
+    return a->A == b->A && a->B == b->B && a->s == b->s && a->m == b->m;
+}
+
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches)
 {
@@ -482,7 +487,7 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
     const uint32_t index = scene->facet_part[facet];
     const lrcs_part *part = &scene->part[index];
     lrcsi_patch *last = &patches->last;
-    lrcsi_patch made = {.part = index, .side = view->facing[facet]};
+    lrcsi_patch made = {.part = index, .brdf = *brdf, .side = view->facing[facet]};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
         (brdf->A > 0 && !(brdf->s >= LRCSI_PATCH_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
@@ -490,7 +495,8 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
         return NULL;
     }
     if (last->side != made.side || last->part != index || last->at.row != made.at.row ||
-        last->at.sector != made.at.sector || last->at.mirrored != made.at.mirrored) {
+        last->at.sector != made.at.sector || last->at.mirrored != made.at.mirrored ||
+        !same_brdf(&last->brdf, brdf)) {
         made.known = patch_integrate(view, brdf, facet, patches, &made);
         *last = made;
     }

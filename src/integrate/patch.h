@@ -19,8 +19,9 @@ typedef struct lrcsi_patch {
                             area of a region of the facets */
     lrcsi_wall_patch at; /* its position on the shape */
     uint32_t part;       /* the part that is the shape */
-    int side;            /* 1: seen from outside, -1: from inside; 0: there is no patch yet */
-    int known;           /* 0: there is a patch, but its mean is not known */
+    lrcs_brdf brdf;
+    int side;  /* 1: seen from outside, -1: from inside; 0: there is no patch yet */
+    int known; /* 0: there is a patch, but its mean is not known */
 } lrcsi_patch;
 
 /* What evaluates patches, one after the other. The last one is kept, because the other facet of its
@@ -46,10 +47,9 @@ uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
 /* 1 if a facet may represent a patch: it is on the curved wall of a shape. */
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
-/* The patch of a facet that is not skipped, valid until the next call. Given: the BRDF, the same
-   for all facets of a part that `patches` are used for. Returned: NULL if the plan asks for facets,
-   the facet has no patch, the laser may see the patch edge-on or from its other side in part, or it
-   is too large for the rules. */
+/* The patch of a facet that is not skipped, valid until the next call. Returned: NULL if the plan
+   asks for facets, the facet has no patch, the laser may see the patch edge-on or from its other
+   side in part, or it is too large for the rules. */
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches);
 

@@ -30,7 +30,7 @@
 #define PROOF_FRACTION_MAX 0x1p-20
 /* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
    part by part, so that few pairs are needed at a time. */
-#define BEHIND_PAIRS 64u
+#define DEPTH_PAIRS 64u
 
 /* A pair of parts, `back` perhaps behind `front`; front == back: none yet. */
 typedef struct band_pair {
@@ -43,24 +43,30 @@ typedef struct band_box {
     double low[3], high[3];
 } band_box;
 
-/* What one run needs. */
 typedef struct band_job {
+    /* Given: */
     const lrcsi_view *view;
     lrcsi_meter *meter;
+
+    /* Made first: */
+    lrcsi_proximity_events events;
+    band_box *box;          /* part: that of its facets in the view */
+    band_box curved;        /* of all facets of curved parts */
+    lrcsi_outline *outline; /* part */
+    const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
+
+    /* Returned (lrcsi_proximity_band): */
     double *mismatch, *gain, *loss, *rows;
     double *gain_aligned, *loss_aligned;
     unsigned char *free_sides;
     lrcsi_part_set *parts;
-    lrcsi_proximity_events events;
+
+    /* Kept, so that nothing is computed again: */
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
-                         and of its facets; gain < 0: not computed yet */
-    uint32_t *seen[2];          /* event: 1 + the last facet for which it was considered, without
-                         and with edge_search.aligned */
-    band_box *box;              /* part: that of its facets in the view */
-    lrcsi_outline *outline;     /* part */
-    const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
-    band_pair *pair;        /* BEHIND_PAIRS of them */
-    band_box curved;        /* of all facets of curved parts */
+                                   and of its facets; gain < 0: not computed yet */
+    uint32_t *seen[2]; /* event: 1 + the last facet for which it was considered, without and with
+                          facet_search.aligned */
+    band_pair *pair;   /* DEPTH_PAIRS of them: what was found last */
 } band_job;
 
 static uint32_t band_part(const band_job *job, uint32_t facet)
@@ -165,10 +171,10 @@ static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_
     job->loss[facet] += fraction;
 }
 
-/* What a plane between two parts proves; computed once for each pair in turn. */
-static const lrcsi_depth_order *depth_order(const band_job *job, uint32_t front, uint32_t back)
+/* What a plane between two parts proves; it is kept in job->pair. */
+static const lrcsi_depth_order *depth_order(band_job *job, uint32_t front, uint32_t back)
 {
-    band_pair *pair = &job->pair[(front + 7 * back) % BEHIND_PAIRS]; /* any spread serves */
+    band_pair *pair = &job->pair[(front + 7 * back) % DEPTH_PAIRS]; /* any spread serves */
     if (pair->front != front || pair->back != back) {
         *pair = (band_pair){
             front, back,
@@ -189,7 +195,7 @@ static int proof_holds(const band_job *job, uint32_t facet, const lrcsi_order_pr
 
 /* Is a part behind the facet's own part (visibility/depth_order.h), except for a fraction of the
    facet? */
-static int part_is_behind(const band_job *job, uint32_t facet, uint32_t other, double *unproved)
+static int part_is_behind(band_job *job, uint32_t facet, uint32_t other, double *unproved)
 {
     *unproved = 0;
     return job->body &&
@@ -226,7 +232,7 @@ static int gain_is_inside(const band_job *job, const facet_search *search, uint3
 /* Is the outline of a part known, and the part in front of a facet: because the facet is flat, and
    the part in front of its plane (*err: as for lrcsi_outline_in_front); or because a plane
    separates it from the facet's own part, except for a fraction of the facet? */
-static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, double *err,
+static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *err,
                          double *unproved)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -265,7 +271,7 @@ static int rim_is_inside(const band_job *job, uint32_t event)
 
 /* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
    event edge; infinite if nothing is known. delta: as in visibility/outline.h. */
-static void outline_fractions(const band_job *job, uint32_t facet, uint32_t event, double delta,
+static void outline_fractions(band_job *job, uint32_t facet, uint32_t event, double delta,
                               double *gain, double *loss)
 {
     const lrcsi_view *view = job->view;
@@ -322,8 +328,8 @@ typedef struct event_fractions {
       the inner side as gain, on the outer side as loss;
    5. but no more than the area between outlines, where the part is in front of the facet.
    Returns 0 if there are none. */
-static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t event,
-                                facet_search *search, event_fractions *f)
+static int event_fractions_make(band_job *job, uint32_t facet, uint32_t event, facet_search *search,
+                                event_fractions *f)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
@@ -392,7 +398,7 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
 
 /* Marks the sides of a facet near which an event edge of another part passes. The edges of a part
    behind the facet's own do not matter. */
-static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, facet_search *search)
+static void mark_sides(band_job *job, uint32_t facet, uint32_t event, facet_search *search)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
@@ -613,7 +619,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_body)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(BEHIND_PAIRS, sizeof(band_pair)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(DEPTH_PAIRS, sizeof(band_pair)));
     return lrcsi_work_add(need, lrcsi_proximity_events_need(edges));
 }
 
@@ -630,7 +636,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
     size_t mark = work->used;
     job->box = lrcsi_work_take(work, parts, sizeof *job->box);
     job->outline = lrcsi_work_take(work, parts, sizeof *job->outline);
-    job->pair = lrcsi_work_take_zero(work, BEHIND_PAIRS, sizeof *job->pair);
+    job->pair = lrcsi_work_take_zero(work, DEPTH_PAIRS, sizeof *job->pair);
     lrcsi_body *body = p->extent ? lrcsi_work_take(work, parts, sizeof *body) : NULL;
     job->body = body;
     int status = job->box && job->outline && job->pair && (body || !p->extent)
