@@ -15,12 +15,7 @@
    p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta and w = 1 + u = 1 / c^2:
    F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1).
 
-   Remainder. On [-1, 1] let f have a Taylor series about 0 whose radius exceeds r > 1, and |f| <= M
-   on the disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd
-   k and for k < 2 n; for even k >= 2 n its mean of x^k lies between 0 and the true mean 1/(k+1),
-   since the error of Gauss's rule is f^(2n)(xi) times a positive number. So the error of its mean
-   of f is at most
-       M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
+   Remainder. That of a rule in one variable: integrate/mean_rule.h.
    The error of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q'), is at most
    the sum of the errors of both, where M is taken over one complex and one real variable.
 

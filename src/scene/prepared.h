@@ -71,8 +71,8 @@ typedef struct lrcsi_proximity {
     double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
     double max_hausdorff;
-    lrcsi_part_set *near; /* facet on a curved wall: the other parts of which a facet is within
-                             LRCSI_PROXIMITY_NEAR times the slack */
+    lrcsi_part_set *near;       /* facet on a round wall: the other parts of which a facet is within
+                                   LRCSI_PROXIMITY_NEAR times the slack */
     lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;

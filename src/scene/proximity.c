@@ -211,17 +211,23 @@ static float fraction_float(double fraction)
 /* Pairs are allocated one by one and must be contiguous. */
 _Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between pairs");
 
-/* Notes that a facet on a curved wall is near a part, if part of it is. */
+/* Is it asked which parts are near a facet? It is for those on the walls of round shapes. */
+static int near_matters(const lrcs_prepared *p, uint32_t facet)
+{
+    const uint32_t part = p->scene->facet_part[facet];
+    return p->scene->facet_smooth[facet] != 0 && p->proximity.reach[part] > 0 &&
+           lrcsi_shape_is_round(p->scene->part[part].kind);
+}
+
+/* Notes that a facet is near the part of another one, if part of it is. */
 static void near_add(lrcs_prepared *p, uint32_t facet, uint32_t other)
 {
-    lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
     lrcsi_part_set set = lrcsi_part_set_of(part[other]);
-    if (proximity->reach[part[facet]] > 0 && p->scene->facet_smooth[facet] != 0 &&
-        (proximity->near[facet] & set) == 0 && !pair_is_apart(p, facet, other, near) &&
+    if ((p->proximity.near[facet] & set) == 0 && !pair_is_apart(p, facet, other, near) &&
         !pair_is_apart(p, other, facet, near) && pair_slice(p, facet, other, near).count > 0) {
-        proximity->near[facet] |= set;
+        p->proximity.near[facet] |= set;
     }
 }
 
@@ -264,8 +270,9 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
+    const int near = near_matters(p, facet);
     double within =
-        LRCSI_PROXIMITY_NEAR *
+        (near ? LRCSI_PROXIMITY_NEAR : 1) *
         (2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR);
     lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     for (int k = 0; k < 3; k++) {
@@ -280,8 +287,9 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
         if (scene->facet_part[other] == part) {
             continue;
         }
-        near_add(p, facet, other);
-        near_add(p, other, facet);
+        if (near) {
+            near_add(p, facet, other);
+        }
         status = proximity_add(p, facet, other, work);
         if (status == LRCS_OK && p->proximity.reach[scene->facet_part[other]] == 0) {
             status = proximity_add(p, other, facet, work);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Round shapes that a straight edge hides in part: a sphere in any place and turn, and a paraboloid
-   seen along its axis. Their sigma is then an integral over one angle, computed here. */
+/* Round shapes that a straight edge hides in part: a sphere, and a dome and a paraboloid seen along
+   their axes. Their sigma is then an integral over one angle, computed here. */
 #include <lrcs/lrcs.h>
 
 #include "check.h"
@@ -118,6 +118,14 @@ static void a_sphere_behind_a_straight_edge(void **state)
     check_hidden(sphere, 0, 1, 3e-3); /* the edge passes corners of facets where the glint is */
 }
 
+/* Along its axis a dome looks like a sphere. */
+static void a_dome_behind_a_straight_edge(void **state)
+{
+    (void)state;
+    const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 0.75};
+    check_hidden(dome, 0, 0, 1e-6);
+}
+
 static void a_paraboloid_behind_a_straight_edge(void **state)
 {
     (void)state;
@@ -129,6 +137,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_behind_a_straight_edge),
+        cmocka_unit_test(a_dome_behind_a_straight_edge),
         cmocka_unit_test(a_paraboloid_behind_a_straight_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
