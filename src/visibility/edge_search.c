@@ -8,14 +8,6 @@
 #include "base/range.h"
 #include "visibility/edge_rectangle.h"
 
-/* outward . x of a point, with `err` times its position's error added. */
-static double search_height(const lrcsi_edge_search *search, int side, const double x[3],
-                            double err)
-{
-    return search->outward[side][0] * x[0] + search->outward[side][1] * x[1] +
-           err * lrcsi_view_point_err(x);
-}
-
 /* The line parallel to a side at the distance `near` from the facet; nothing is beyond it if the
    side has no length. */
 static void search_line(lrcsi_edge_search *search, int side, const double *const corner[3],
@@ -32,24 +24,10 @@ static void search_line(lrcsi_edge_search *search, int side, const double *const
     search->outward[side][1] = length > 0 ? sign * y / length : 0;
     double highest = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        highest =
-            lrcsi_max(highest, search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
+        highest = lrcsi_max(
+            highest, lrcsi_edge_search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
     }
     search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
-}
-
-int lrcsi_edge_search_excludes(lrcsi_edge_search *search, const double a[3], const double b[3])
-{
-    int side = search->first;
-    for (int i = 0; i < 3; i++) {
-        if (search_height(search, side, a, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side] &&
-            search_height(search, side, b, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side]) {
-            search->first = side;
-            return 1;
-        }
-        side = side < 2 ? side + 1 : 0;
-    }
-    return 0;
 }
 
 lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_grid *grid,
