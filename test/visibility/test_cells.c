@@ -72,10 +72,10 @@ static lrcsi_visible_area clip_with_moment(lrcsi_occlusion *o, uint32_t f)
     while (lrcsi_occlude_next(o)) {
         const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
                                   (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
-        add_piece(o->single.piece, centre, first);
+        add_piece(&o->single.piece, centre, first);
     }
     lrcsi_visible_area clipped = lrcsi_occlude_close(o);
-    const lrcsi_moment *by_pieces = o->single.moment;
+    const lrcsi_moment *by_pieces = &o->single.moment;
     double size = o->single.target.diameter;
     double rounding = 1e-14 * size * size * size;
     for (int k = 0; k < 2 && undecided && by_pieces->error < HUGE_VAL; k++) {
