@@ -143,7 +143,7 @@ static void cell_chord(const lrcsi_cubature_cell *cell, int *from, int *to, doub
       chord, in the largest triangle of the fan.
    2. The line perpendicular to g, midway between the ends of the chord; a diagonal if the cell has
       LRCSI_CUBATURE_CORNERS corners. If no level is negative, for instance because all normals are
-   the same, the first half is the whole cell, and the second one is empty.
+      the same, the first half is the whole cell, and the second one is empty.
    3. The halves. The normals of half[1] are closer to the direction to the laser. */
 void lrcsi_cubature_cell_halve(const lrcsi_cubature_cell *cell, lrcsi_cubature_cell half[2])
 {
@@ -168,7 +168,7 @@ void lrcsi_cubature_cell_halve(const lrcsi_cubature_cell *cell, lrcsi_cubature_c
             g[1] = gv * u[0] - gu * v[0];
         }
     }
-    double level[LRCSI_CUBATURE_CORNERS];
+    double level[LRCSI_CUBATURE_CORNERS] = {0};
     int below = 0;
     const double *p = cell->at[LRCSI_CUBATURE_CORNERS / 2];
     for (int i = 0; i < cell->count; i++) { /* 2 */
