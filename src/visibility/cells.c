@@ -296,7 +296,7 @@ static void process_block(cells_job *job, uint32_t x, uint32_t y)
     lrcsi_cell cell = {.cuts = 0};
     d->extent = lrcsi_block_grid_square(&b->grid, x, y, &cell.shape, b->frame.middle);
     b->frame.block = (uint32_t)block + 1;
-    job->sample.listed.number++;
+    lrcsi_cells_sample_clear(&job->sample, d->view->prepared->scene->facet_count);
     if (!lrcsi_blocks_begin(b, block, &job->sample.listed, &cell)) {
         leave_block_undecided(b, block);
         return;

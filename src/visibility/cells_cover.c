@@ -161,11 +161,12 @@ void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2])
 void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
 {
+    const uint32_t facet_count = d->view->prepared->scene->facet_count;
     sample->outcome = LRCSI_SAMPLE_UNSURE;
     for (int t = 0; t < LRCSI_SAMPLES && sample->outcome == LRCSI_SAMPLE_UNSURE; t++) {
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
-        sample->listed.number++;
+        lrcsi_cells_sample_clear(sample, facet_count);
         if (sample->border_distance > 4 * (cell->widest_strip + d->facet_err + s->tolerance)) {
             sample->outcome = sample_nearest(d, cell, s, sample);
         }
@@ -228,8 +229,8 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     const lrcsi_division *d = &b->division;
     uint32_t count = 1;
     int covers = 1;
-    surface->member.number++;
-    surface->adjoining.number++;
+    lrcsi_marks_clear(&surface->member, d->view->prepared->scene->facet_count);
+    lrcsi_marks_clear(&surface->adjoining, d->view->prepared->scene->facet_count);
     const uint32_t member = surface->member.number;
     uint32_t *const mark = surface->member.entry;
     surface->nearest = 1;

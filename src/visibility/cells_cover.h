@@ -4,6 +4,8 @@
 #ifndef LRCSI_CELLS_COVER_H
 #define LRCSI_CELLS_COVER_H
 
+#include <string.h>
+
 #include "visibility/cells_block.h"
 
 /* The number of samples that are tried in a cell, and their positions. */
@@ -28,6 +30,15 @@ typedef struct lrcsi_cells_sample {
                            listed.number */
     lrcsi_marks listed; /* the facets of the cell */
 } lrcsi_cells_sample;
+
+/* Unmarks all of the scene's facets, listed and covering ones: the numbers of both are the same. */
+static inline void lrcsi_cells_sample_clear(lrcsi_cells_sample *sample, uint32_t facet_count)
+{
+    if (sample->listed.number == LRCSI_MARKS_LAST) {
+        memset(sample->covers, 0, (size_t)facet_count * sizeof *sample->covers);
+    }
+    lrcsi_marks_clear(&sample->listed, facet_count);
+}
 
 /* Takes samples well inside a cell until one is decided, and returns the last one. */
 void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,

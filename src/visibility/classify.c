@@ -150,7 +150,7 @@ static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcs
 {
     const lrcsi_grid *grid = &c->search.grid;
     const lrcsi_view_box box = c->search.boxes.meshlet[meshlet];
-    const uint32_t search = ++c->search.searches;
+    const uint32_t search = lrcsi_event_search_begin(&c->search);
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
     uint32_t steps = MESHLET_STEPS;
     meshlet_corners corners;

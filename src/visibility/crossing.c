@@ -189,7 +189,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
     const uint32_t allowed = metered < limit ? (uint32_t)metered : limit;
-    const uint32_t mark = ++search->searches;
+    const uint32_t mark = lrcsi_event_search_begin(search);
     uint32_t left = allowed;
     uint32_t tests_left = query->is_limited ? MAX_TESTED : LRCS_NONE;
     uint32_t count = 0;

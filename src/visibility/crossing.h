@@ -22,8 +22,21 @@ typedef struct lrcsi_event_search {
     lrcsi_grid grid;        /* of events */
     uint32_t events;        /* how many there are */
     lrcsi_event_box *event; /* one for each event; nearest first */
-    uint32_t searches;      /* how many there were */
+    uint32_t searches;      /* how many there were; begins again at 1 after 2^32 - 1 */
 } lrcsi_event_search;
+
+/* Begins a search, and returns its number, which is the last of no event. When numbers begin again,
+   the last search of all events becomes 0, which is the number of none. */
+static inline uint32_t lrcsi_event_search_begin(lrcsi_event_search *search)
+{
+    if (search->searches == UINT32_MAX) {
+        for (uint32_t i = 0; i < search->events; i++) {
+            search->event[i].last_search = 0;
+        }
+        search->searches = 0;
+    }
+    return ++search->searches;
+}
 
 /* The event edges that cross one facet. */
 typedef struct lrcsi_crossings {

@@ -64,7 +64,7 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
         side[k] = lrcsi_view_side_of(d->view, corner[k], corner[k == 2 ? 0 : k + 1]);
     }
     a->candidate_count = 0;
-    a->listed.number++;
+    lrcsi_marks_clear(&a->listed, d->view->prepared->scene->facet_count);
     a->listed.entry[a->facet] = a->listed.number;
     a->order[a->facet] = LRCSI_ORDER_DISJOINT;
     lrcsi_grid_items items;

@@ -133,6 +133,27 @@ static void crossings_are_searched_for_once(void **state)
     assert_int_equal(classification.search.searches, before + 3);
 }
 
+/* Numbers of searches begin again after the last one; what an earlier search left with an event is
+   not mistaken for a mark of the new one. */
+static void crossings_are_found_after_the_last_number_of_a_search(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    square(0, 0, 0, 4);
+    square(2.5, 0.5, 1, 1);
+    look_from(0, 0, 1);
+    for (uint32_t i = 0; i < classification.search.events; i++) {
+        classification.search.event[i].last_search = 1 + i % 2;
+    }
+    classification.search.searches = UINT32_MAX - 1;
+    assert_int_equal(crossing_count(0), 4);
+    assert_int_equal(classification.search.searches, UINT32_MAX);
+    assert_int_equal(crossing_count(1), 0);
+    assert_int_equal(classification.search.searches, 1);
+    assert_int_equal(crossing_count(0), 4);
+    assert_int_equal(classification.search.searches, 2);
+}
+
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
 /* A slope over which a level edge passes underneath, lower than all of it; but far to the left,
    where the slope is no more, the edge is above the slope's plane. */
@@ -544,6 +565,7 @@ int main(void)
         cmocka_unit_test(winding_that_changes_makes_no_events),
         cmocka_unit_test(boundary_edges_in_front_make_facets_that_they_cross_undecided),
         cmocka_unit_test(crossings_are_searched_for_once),
+        cmocka_unit_test(crossings_are_found_after_the_last_number_of_a_search),
         cmocka_unit_test(boundary_edges_behind_a_facet_do_not_make_it_undecided),
         cmocka_unit_test(boundary_edges_along_boundary_edges_make_nothing_undecided),
         cmocka_unit_test(piercing_and_overlapping_facets_make_each_other_undecided),
