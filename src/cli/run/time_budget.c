@@ -3,9 +3,9 @@
    are tried one after the other:
      1. no self-shadowing;
      2. in the order of their expected time (lrcs/sequence.h): rasters of 256, 512 and 1024 pixels,
-   with their bound or accepted by their estimate; and clipping, or method auto with the tolerance
-        1e-1 if tolerances change the answer. Rasters are not tried any more after this last
-        setting, nor before it if it is expected to take at most a quarter of the time left, or
+        with their bound or accepted by their estimate; and clipping, or method auto with the
+        tolerance 1e-1 if tolerances change the answer. Rasters are not tried any more after this
+        last setting, nor before it if it is expected to take at most a quarter of the time left, or
         half of it once a raster with a bound has been timed: clipping leaves only rounding errors,
         less than any raster;
      3. if tolerances change the answer: method auto with finer ones down to 1e-12, up to the first
@@ -46,19 +46,54 @@ static const double rungs[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e
 /* How often the child process looks at the clock, us. */
 #define CHILD_TICK 5000
 
-/* An answer on its way to the parent process. Its reasons are constant texts, at the same address
-   in both processes. */
+/* An answer on its way to the parent process. A pointer of the child's says nothing there, except
+   to constant texts (the reasons in `result`), which are at the same address in both processes; the
+   parent uses no other. */
 typedef struct budget_answer {
     lrcs_result result;
     lrcs_run_options options;
     lrcs_build_options build;
-    unsigned char halvings[RUN_BUDGET_PARTS]; /* those of build */
+    int divided; /* 1: the build has halvings, of which build.halvings is the child's pointer */
+    unsigned char halvings[RUN_BUDGET_PARTS]; /* these, unless the scene has more parts */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
 /* Read by the child's signal handler: when to end, and whose child it is. */
 static double child_deadline;
 static pid_t child_parent;
+
+/* ---- answers in a pipe ---- */
+
+/* Writes an answer, in parts if the pipe takes no more at once. Returns 0 if nobody reads. */
+static int answer_write(int answers, const budget_answer *answer)
+{
+    const unsigned char *bytes = (const unsigned char *)answer;
+    size_t done = 0;
+    while (done < sizeof *answer) {
+        ssize_t count = write(answers, bytes + done, sizeof *answer - done);
+        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+            return 0;
+        }
+        done += count > 0 ? (size_t)count : 0;
+    }
+    return 1;
+}
+
+/* Reads an answer. Returns 0 at the end of the answers; one that the child could not finish does
+   not count. */
+static int answer_read(int answers, budget_answer *answer)
+{
+    unsigned char *bytes = (unsigned char *)answer;
+    size_t done = 0;
+    while (done < sizeof *answer) {
+        ssize_t count = read(answers, bytes + done, sizeof *answer - done);
+        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+            return 0;
+        }
+        done += count > 0 ? (size_t)count : 0;
+    }
+    return 1;
+}
 
 /* ---- settings ---- */
 
@@ -91,7 +126,8 @@ static int budget_setting_run(run_job *job, budget_answer *answer)
     answer->seconds_pose = job->seconds;
     answer->options = job->options;
     answer->build = job->load.build;
-    if (answer->build.halvings && job->scene.scene.part_count <= RUN_BUDGET_PARTS) {
+    answer->divided = answer->build.halvings != NULL;
+    if (answer->divided && job->scene.scene.part_count <= RUN_BUDGET_PARTS) {
         memcpy(answer->halvings, answer->build.halvings, job->scene.scene.part_count);
     }
     answer->seconds_load = job->scene.seconds_load;
@@ -103,8 +139,7 @@ static int budget_setting_run(run_job *job, budget_answer *answer)
    the run failed, if nobody reads, or if the answer meets the tolerance asked for. */
 static int setting_send(run_job *job, int answers, budget_answer *answer)
 {
-    return budget_setting_run(job, answer) == 0 &&
-           write(answers, answer, sizeof *answer) == (ssize_t)sizeof *answer &&
+    return budget_setting_run(job, answer) == 0 && answer_write(answers, answer) &&
            !cli_run_meets(&answer->result, job->asked);
 }
 
@@ -229,10 +264,8 @@ static int answer_is_better(const budget_answer *answer, const budget_answer *be
 static void budget_answers_read(int answers, pid_t child, budget_answer *best)
 {
     budget_answer answer;
-    ssize_t count;
-    while ((count = read(answers, &answer, sizeof answer)) == (ssize_t)sizeof answer ||
-           (count < 0 && errno == EINTR)) {
-        if (count > 0 && answer_is_better(&answer, best)) {
+    while (answer_read(answers, &answer)) {
+        if (answer_is_better(&answer, best)) {
             *best = answer;
         }
     }
@@ -300,17 +333,16 @@ static int budget_settle(run_job *job, const budget_answer *best)
     int code = 0;
     if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         uint32_t parts = job->scene.scene.part_count;
-        int divided = best->build.halvings != NULL;
         lrcs_host_scene_free(&job->scene);
         job->divided = 0;
         job->load.build = best->build;
         job->load.build.halvings = NULL;
-        if (divided && parts <= RUN_BUDGET_PARTS) {
+        if (best->divided && parts <= RUN_BUDGET_PARTS) {
             memcpy(job->halvings, best->halvings, parts);
             job->load.build.halvings = job->halvings;
         }
         code = cli_scene_read(job->args, &job->load, &job->scene);
-        code = code == 0 && divided && parts > RUN_BUDGET_PARTS ? cli_run_divide(job) : code;
+        code = code == 0 && best->divided && parts > RUN_BUDGET_PARTS ? cli_run_divide(job) : code;
     }
     job->scene.seconds_load = best->seconds_load;
     job->scene.seconds_prepare = best->seconds_prepare;
