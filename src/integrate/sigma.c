@@ -2,7 +2,7 @@
 /* Computes one pose, from a prepared scene to a result. This file decides in which order the stages
    run, and what memory they need. The stages, in the order of lrcsi_sigma_stages:
    1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make;
-   2. where nothing is searched for shadows, lrcsi_sigma_sum_unshadowed (sigma_sum.c);
+   2. where no shadows are searched for, lrcsi_sigma_sum_unshadowed (sigma_sum.c);
    3. elsewhere lrcsi_sigma_search (sigma_search.c): view coordinates, the classification, visible
       areas by clipping or from samples, and their sum, lrcsi_sigma_sum (sigma_sum.c). */
 #include "integrate/sigma.h"

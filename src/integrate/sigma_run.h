@@ -87,7 +87,7 @@ lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records);
    given meter, which is that of the run or of an attempt. */
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter);
 
-/* The same where nothing is searched for shadows. */
+/* The same where no shadows are searched for. */
 void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run);
 
 #endif

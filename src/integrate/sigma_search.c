@@ -12,7 +12,9 @@
 #include "visibility/preview.h"
 
 /* Clipping is tried before a raster if its estimated cost is at most this many times that of the
-   raster: by the first factor before the first raster, by the second before each later one. */
+   raster: by the first factor before the first raster, by the second before each later one.
+   Heuristics, which affect only the time: clipping leaves only rounding errors, whereas the estimate
+   of a raster may be refused, after one refusal more likely than before. */
 #define CLIP_PREFERRED      1.5
 #define CLIP_PREFERRED_NEXT 2.5
 
@@ -84,11 +86,13 @@ static int run_raster(lrcsi_sigma *run, lrcsi_decisions *known, uint32_t size)
     return status;
 }
 
-/* A raster is this many times as large as the one before, at least; with an estimate, at most. */
+/* A raster is this many times as large as the one before, at least; with an estimate, at most.
+   Heuristics, which affect only the time: smaller steps would draw more rasters, larger ones a
+   raster that is finer than the tolerance requires. */
 #define GROWTH_MIN 1.5
 #define GROWTH_MAX 4.0
 /* A size that is to meet the tolerance by its bound is chosen larger by this factor, because the
-   next bound is known only about. */
+   next bound is known only approximately. A heuristic: it affects only the time. */
 #define BOUND_MARGIN 1.2
 
 /* The size of the next raster, a multiple of 64 pixels. With the size N the visibility bound falls

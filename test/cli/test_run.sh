@@ -138,7 +138,7 @@ same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^notice: [0-9]
 run run ball.toml --tolerance 1e-1
 same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0
 
-# ---- back sides, where nothing is searched for shadows ----
+# ---- back sides, where no shadows are searched for ----
 run run demo --azel 50,40 --method facet
 same back_sides_that_others_may_hide_are_not_called_visible "$(printf '%s\n%s\n' "$out" "$err" | grep -c 'back sides')" 0
 
