@@ -69,8 +69,7 @@ static inline int lrcsi_areas_may_be_visible(const lrcsi_areas *areas, uint32_t 
 }
 
 /* Does the sum of Eq. 2 include a facet that faces the laser and reflects towards it? By any
- * method.
- */
+   method. */
 static inline int lrcsi_areas_is_summed(const lrcsi_areas *areas, const lrcsi_view *view,
                                         uint32_t facet)
 {

@@ -149,10 +149,10 @@ uint64_t lrcsi_cost_steps(double ns)
 }
 
 /* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.
-   Each of these pixels has a random error of half its area, and together they have one of sqrt(L N)
-   / (2 N^2), which is compared with the covered area. The model does not apply if borders would
-   pass through more pixels than there are; then the coarsest raster is chosen, and its own error
-   estimate decides. */
+   Each of these pixels has a random error of half its area, and together they have one of
+   sqrt(L N) / (2 N^2), which is compared with the covered area. The model does not apply if borders
+   would pass through more pixels than there are; then the coarsest raster is chosen, and its own
+   error estimate decides. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t largest)
 {
     double borders = cost->borders / mean_overdraw(cost);

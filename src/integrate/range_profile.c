@@ -23,9 +23,9 @@
    - (3) The true range z of a point differs from z~ by at most e, so that the true and the computed
      part of P in a bin differ only where z~ is within e of an edge of the bin. That strip is 2 e
      wide. Because the area per unit of range never exceeds 2 / (z2 - z0) times the area of P, where
-     z0 and z2 are the smallest and the largest range of P, the strip has at most the fraction 4 e /
-     (z2 - z0) of the area. It is added to the error of the bins on both sides of the edge, for
-     edges between bins that the facet extends into. These bins are found from the ranges of its
+     z0 and z2 are the smallest and the largest range of P, the strip has at most the fraction
+     4 e / (z2 - z0) of the area. It is added to the error of the bins on both sides of the edge,
+     for edges between bins that the facet extends into. These bins are found from the ranges of its
      corners in double-double, so that a facet normal to the line of sight is in one bin.
    - (4) Rounding of the trapezia: some ten operations on terms of one sign, 16 u.
    - (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A

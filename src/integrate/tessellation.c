@@ -14,16 +14,17 @@
      patch. This deviation holds for the two facets of a sector together, so both must be visible.
    - It is hidden except for a fraction h: 0 <= M <= S h F_i and 0 <= T <= (1 + a) S (g + h) sup F.
    - Otherwise, T - M = Int_U (F - F_i) v + F_i (Int_U v - Int_f w), where the first term is at most
-     (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and F_i S (a + (1
-     + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or faces
-   away, the first term of both together is at most the integral of F - F_i over some region of both
-     patches. And v is 1 on at most a fraction q of the patch: g, plus the fraction of the facet
-     that may be visible. The first term is at most (1 + a) S q sup |F - F_i|, and the part of the
-     second that is due to a is at most F_i S a q.
-   - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
-     - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
+     (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and
+     F_i S (a + (1 + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is
+     hidden or faces away, the first term of both together is at most the integral of F - F_i over
+     some region of both patches. And v is 1 on at most a fraction q of the patch: g, plus the
+     fraction of the facet that may be visible. The first term is at most (1 + a) S q sup |F - F_i|,
+     and the part of the second that is due to a is at most F_i S a q.
+   - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) +
+     F_i Int_f (1 - w), where 0 <= Int_f (1 - w) <= S h, and
+     0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
    - The facet faces away from the laser: M is 0. Its patch may face the laser in part, and T is at
-   most the deviation.
+     most the deviation.
    - The laser may see parts of a patch from its other side. On a two-sided part that is not closed
      these reflect as well, even if the facet is hidden: T exceeds the bounds above by at most
      (1 + a) S sup F of that side.
@@ -39,9 +40,9 @@
    that meet no proximity band are visible over their whole length or nowhere
    (visibility/proximity_band.h): these are a fraction q <= 1. The other rows are a fraction m of
    the area, at most twice their fraction of the height, since no row of a trapezoid is longer than
-   twice the mean. Together, for a sector of which no facet is hidden or faces away: T - M <= S
-   (whole + m region + F_i (m a + (1
-   + a) g)), and M - T likewise with l.
+   twice the mean. Together, for a sector of which no facet is hidden or faces away:
+       T - M <= S (whole + m region + F_i (m a + (1 + a) g)),
+   and M - T likewise with l.
 
    A facet that is partly visible, or whose sector is, may be summed with a linear function l of
    position on the facets in place of F_i (integrate/linear.h): M' = Int_f l w. It exceeds M by the
@@ -52,7 +53,7 @@
    - Over a whole row of a straight wall l - F_i is antisymmetric, so that its integral is 0, and
      what was said of rows holds.
    - If the other facet of the sector is hidden or faces away, the integral of F - l over a region
-   of this facet's patch alone still has the bound of the whole sector: per unit of this facet's
+     of this facet's patch alone still has the bound of the whole sector: per unit of this facet's
      area, it is the sector's area divided by this facet's times as large.
    The correction is made where neither bound, above or below, becomes larger by it: then no sum of
    bounds does. Both facets of a sector must do the same if none of them is hidden or faces away,

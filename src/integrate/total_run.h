@@ -95,8 +95,7 @@ void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf);
 /* Records the sigma of a facet, if records are asked for. */
 void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
 
-/* --- total_packet.c ----------------------------------------------------------------------------
- */
+/* --- total_packet.c --------------------------------------------------------------------------- */
 
 /* Adds all facets of a material, in their order, in packets wherever that is possible. */
 void lrcsi_total_add_material(lrcsi_total_run *run, uint32_t material);

@@ -74,11 +74,10 @@ lrcsi_patch_deviation lrcsi_patch_deviation_make(const lrcsi_tessellation_input 
                            lrcsi_patch_make(in->view, in->plan, &brdf, facet, patches));
 }
 
-/* --- a sector of which no facet is hidden or faces away
- * -------------------------------------------- */
+/* --- a sector of which no facet is hidden or faces away --------------------------------------- */
 
-/* The alternative bounds for a sector of which no facet is hidden or faces away, by what they use.
- */
+/* The alternative bounds for a sector of which no facet is hidden or faces away, by what they
+   use. */
 enum sector_method {
     BY_REGION, /* the deviation over any region of both patches */
     BY_POINT,  /* the deviation at any point, times what is visible of the facet */

@@ -16,14 +16,14 @@
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. So does a single facet that covers the cell (lrcsi_cells_surface_occluder). If an
-   event edge or a contact of the component crosses the cell, lrcsi_cells_divide cuts the cell along
-   its line.
+      event edge or a contact of the component crosses the cell, lrcsi_cells_divide cuts the cell
+      along its line.
    5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
       (visibility/cells_cut.c; at the border of blocks: lrcsi_cells_charge_border; of cells that are
       given up: lrcsi_cells_charge_all). An area is reported where its error is small enough; other
-   facets are left to visibility/facet_cells.c.
+      facets are left to visibility/facet_cells.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest
@@ -324,12 +324,13 @@ static double extent_of(const lrcs_prepared *p)
     return 2 * lrcsi_max3(p->bulk[0], p->bulk[1], p->bulk[2]);
 }
 
-/* The largest error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the squared
-   extent; or, if as_single, SINGLE_FACTOR times the least error of the facet processed alone
-   (visibility/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a strip
-   128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
-   accurate alone: for these only the first limit applies, unless they represent a curved surface,
-   from which they differ by far more. */
+/* The largest error at which a facet's area is accepted. It is the sum of two terms: 1e-12 of the
+   projected area; and 1e-15 of the squared extent or, if as_single and if that is more,
+   SINGLE_FACTOR times the least error of the facet processed alone (visibility/facet_cells.c): 52 u
+   of its diameter times its perimeter, and for each cut a strip 128 u of the diameter wide.
+   Needles, and facets with a diameter of twice the extent or more, are much more accurate alone:
+   for these there is only the first term, unless they represent a curved surface, from which they
+   differ by far more. */
 static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double projected,
                              int as_single)
 {

@@ -213,8 +213,7 @@ int lrcsi_block_grid_make(const lrcsi_classification *classification, const unsi
     return 1;
 }
 
-/* --- the first cell of a block -----------------------------------------------------------------
- */
+/* --- the first cell of a block ---------------------------------------------------------------- */
 
 /* Adds an edge. 0 if there is no room. */
 static int add_edge(lrcsi_blocks *b, uint32_t edge)

@@ -246,8 +246,7 @@ int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t sec
                                                               : -1;
 }
 
-/* --- which facet continues another --------------------------------------------------------------
- */
+/* --- which facet continues another ------------------------------------------------------------ */
 
 int lrcsi_cells_has_coplanar(const lrcsi_view *view, uint32_t facet)
 {

@@ -80,8 +80,7 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     return c->search.event ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* --- meshlets
- * ------------------------------------------------------------------------------------- */
+/* --- meshlets --------------------------------------------------------------------------------- */
 
 /* The corners in the view of the facets of a meshlet that can hide others. */
 typedef struct meshlet_corners {

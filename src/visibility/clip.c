@@ -129,8 +129,7 @@ double lrcsi_clip_box_area(const double corner[3][2], const double low[2])
     return box_integral(p[0], p[1]) + box_integral(p[1], p[2]) + box_integral(p[2], p[0]);
 }
 
-/* --- lines and cells ----------------------------------------------------------------------------
- */
+/* --- lines and cells -------------------------------------------------------------------------- */
 
 double lrcsi_line_through(const double *p, const double *q, double line[3])
 {

@@ -101,8 +101,7 @@ static int position_err_exceeds_width(const lrcsi_contact *c, double area)
     return c->position_err > 0 && !(c->position_err * lrcsi_clip_box_perimeter(&triangle) < area);
 }
 
-/* --- in the frame along the view's axes --------------------------------------------------------
- */
+/* --- in the frame along the view's axes ------------------------------------------------------- */
 
 /* The point at which side k of the facet, whose ends lie on different sides of the target's plane,
    intersects that plane; returns its position error. It lies at parameter t = h / (h + h') of the

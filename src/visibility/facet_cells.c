@@ -241,7 +241,7 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
 /* Room for the sides of so many candidates. */
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
- * last. */
+   last. */
 #define SINGLE_FACET_LISTS (LRCSI_CELL_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)

@@ -11,8 +11,7 @@
 int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a);
 
 /* The depth order, a lrcsi_candidate_order, of a candidate whose interior does not intersect that
- * of f.
- */
+   of f. */
 int lrcsi_facet_cells_order(const lrcsi_facet_cells *a, uint32_t other);
 
 /* Adds the segments to the division, and finds the depth order of the facets that meet f. 0 if

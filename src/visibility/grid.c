@@ -16,8 +16,7 @@
 /* Buckets to be read are marked by one bit each. */
 #define NEEDED_BITS 32u
 
-/* --- the grid ----------------------------------------------------------------------------------
- */
+/* --- the grid --------------------------------------------------------------------------------- */
 
 /* The number of buckets along a side of a square grid of about this many. */
 static uint32_t grid_size(size_t buckets)

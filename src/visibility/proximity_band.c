@@ -583,7 +583,7 @@ static void box_add(band_box *box, const double low[3], const double high[3])
 }
 
 /* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes
-   that they are compared with are enlarged (search_make). */
+   that they are compared with are enlarged (lrcsi_edge_search_make). */
 static void band_boxes(band_job *job)
 {
     static const band_box none = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
@@ -628,7 +628,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
    2. outlines of parts (lrcsi_outline_make) and parts as convex bodies (lrcsi_body_make);
    3. facets near those of other parts (add_pairs);
    4. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   5. no fraction exceeds 1. */
+   5. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it: who
+      uses them compares the areas that they stand for with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;

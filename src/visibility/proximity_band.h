@@ -139,10 +139,10 @@
    - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
      a point z changes only where the projection of z crosses an event edge. So the steps b to e of
      1 hold for x in place of y with e_P = 0; in e a path that stays on W ends in front of x, so
-   that it reaches a rim.
+     that it reaches a rim.
    - Otherwise no facet of Q is within r' of x, or between x and y, since both are within 30 e_P +
      r' <= 32 slacks of y. So the facets of Q hide y if and only if they hide x, and 1 holds for x
-   in place of y with e_P = 0. What 3 and 9 say of gain and loss holds as well, with delta = 0. []
+     in place of y with e_P = 0. What 3 and 9 say of gain and loss holds as well, with delta = 0. []
    A side of a facet is free if every event edge of other parts that may matter is farther than r' +
    2 e_P from it in projection. Then all points of the true surface whose projections are within
    2 e_P of the side, and that are within 30 e_P of the facet, are visible, and so are the points of

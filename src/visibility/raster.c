@@ -122,8 +122,8 @@ double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet)
 /* The line in which the difference D = c + dx x + dy y of the two heights is 0. It is followed for
    `extent` to both sides of its point that is nearest to the centre of the facet's box: a point of
    the line in a pixel that the facet touches is no farther from the centre, because such pixels
-   reach one pixel beyond the box on each side, and sqrt((w / 2 + 1)^2 + (h / 2 + 1)^2) < w + h + 2
-   - 1/2.
+   reach one pixel beyond the box on each side, and
+   sqrt((w / 2 + 1)^2 + (h / 2 + 1)^2) < w + h + 2 - 1/2.
 
    Error. Where the facets meet in such a pixel, |D| is at most the sum e of their height errors, so
    the point is within e / |gradient| of the line. The terms of D at the centre are together less

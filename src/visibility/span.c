@@ -10,9 +10,9 @@
      certain    value_err
      full       value_err + variation
 
-   At the height of the centres of row y, the edge function is 0 at the distance -(c + dy (y + 1/2))
-   / dx from the left end of the row; the centre of pixel x is at x + 1/2. The limit is passed
-   |limit / dx| before or after that.
+   At the height of the centres of row y, the edge function is 0 at the distance
+   -(c + dy (y + 1/2)) / dx from the left end of the row; the centre of pixel x is at x + 1/2. The
+   limit is passed |limit / dx| before or after that.
 
    Error. Crossings are computed as cross_x + cross_dx y: cross_x from c + dy / 2 with three more
    roundings, cross_dx with three, and their sum with one. Including the limit, this changes the
@@ -21,8 +21,8 @@
    least 64 u N (h + 2); and the error of the edge function itself is at most 5/8 of value_err
    (visibility/raster.c). Therefore the limits -value_err and value_err are still safe.
 
-   A side that is parallel to the rows has no crossing. Its value decides for all pixels of a row.
- */
+   A side that is parallel to the rows has no crossing. Its value decides for all pixels of a
+   row. */
 #include "visibility/span.h"
 
 #include <math.h>

@@ -153,8 +153,7 @@ double lrcsi_target_unproject_err(const lrcsi_target *t)
     return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
 }
 
-/* --- needles -----------------------------------------------------------------------------------
- */
+/* --- needles ---------------------------------------------------------------------------------- */
 
 /* In the frame along the view's axes, positions and the side of a line on which they lie have
    errors of some u of the facet's length r, and a needle seen edge-on may be no wider than that.

@@ -77,8 +77,7 @@ double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const 
    times as large. */
 void lrcsi_target_weights(const lrcsi_target *target, const double at[2], double weight[3]);
 
-/* --- needles ------------------------------------------------------------------------------------
- */
+/* --- needles ---------------------------------------------------------------------------------- */
 
 /* Given: the corners of a facet as scene points, and in its frame (corner, reach). Returns 1 and
    the frame if the facet is a needle in the view; 0 if it is not, or if it is too thin for

@@ -203,9 +203,9 @@ static double square_part(double value, double larger, double smaller)
 
 /* A lower bound of the area of the facet in a pixel that it may not cover entirely.
 
-   If one side alone passes through the pixel: an error of value_err moves the line by value_err /
-   |gradient|, and the area by that times the length of the line in the pixel, which is below 1.5.
-   Roundings are below 8 u, and value_err is at least 64 u N h.
+   If one side alone passes through the pixel: an error of value_err moves the line by
+   value_err / |gradient|, and the area by that times the length of the line in the pixel, which is
+   below 1.5. Roundings are below 8 u, and value_err is at least 64 u N h.
 
    Otherwise, the corners have errors of position_err in each coordinate. The area then has an error
    of at most 4 position_err: the extents of the sides within the pixel, along both axes together.

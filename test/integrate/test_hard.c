@@ -34,8 +34,7 @@ static void unit_plate(double z)
     scene_plate(&scene, corner, u, v);
 }
 
-/* --- incidence and material --------------------------------------------------------------------
- */
+/* --- incidence and material ------------------------------------------------------------------- */
 
 static const double tangents[] = {1e-9, 1e-3, 1, 57, 1e6, 1e12, 1e60};
 static const double slopes[] = {1e-6, 1e-3, 0.2, 1, 1e3};
@@ -105,8 +104,7 @@ static void glint_that_underflows_leaves_the_diffuse_part(void **state)
     }
 }
 
-/* --- cones --------------------------------------------------------------------------------------
- */
+/* --- cones ------------------------------------------------------------------------------------ */
 
 /* At aspect 0, its half-angle, 90 deg, beyond its tangent, 180 deg; base and wall. */
 static void check_cone(double half_angle)
@@ -176,8 +174,7 @@ static void aspect_0_tangent_to_the_cone_and_180_agree(void **state)
     }
 }
 
-/* --- odd facets --------------------------------------------------------------------------------
- */
+/* --- odd facets ------------------------------------------------------------------------------- */
 
 /* A unit square fanned from a point 1e-8 off its edge: two slivers of that height. */
 static void slivers_of_aspect_1e8_count_for_what_they_are(void **state)
@@ -335,8 +332,7 @@ static void directions_in_a_facets_plane_are_exactly_edge_on(void **state)
     }
 }
 
-/* --- what hides what --------------------------------------------------------------------------
- */
+/* --- what hides what -------------------------------------------------------------------------- */
 
 /* Plates z = x and z = -x over |x| <= 1 cross on the y axis; seen from (1, 0, 2), of z = x the half
    x > 0 is seen. Of z = -x all of x < 0, and beyond the shadow of the other, in u = 2 x - z, what
@@ -524,8 +520,7 @@ static void empty_scene_is_exactly_nothing(void **state)
     }
 }
 
-/* --- the same scene elsewhere -------------------------------------------------------------------
- */
+/* --- the same scene elsewhere ----------------------------------------------------------------- */
 
 /* A plate at (at, at, at) and a black wall on its edge that shades 3/8 of it from (3, 0, 8). */
 static const double bracket_light[3] = {3, 0, 8};
@@ -649,8 +644,7 @@ static void sigma_below_the_least_normal_double_is_within_its_bound(void **state
     }
 }
 
-/* --- what is refused ---------------------------------------------------------------------------
- */
+/* --- what is refused -------------------------------------------------------------------------- */
 
 static const double unfit[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 1.0000001e100};
 

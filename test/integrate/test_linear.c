@@ -20,8 +20,7 @@ static double between(double low, double high)
     return low * pow(high / low, random_unit(&seed));
 }
 
-/* --- one shape in a view -----------------------------------------------------------------------
- */
+/* --- one shape in a view ---------------------------------------------------------------------- */
 
 typedef struct linear_scene {
     lrcs_place place;
@@ -75,8 +74,7 @@ static lrcs_shape any_shape(void)
     return shape;
 }
 
-/* --- the patch and its map ---------------------------------------------------------------------
- */
+/* --- the patch and its map -------------------------------------------------------------------- */
 
 /* The strip of a patch, in the shape's units: true radii and heights of the facets' rows. */
 typedef struct strip {

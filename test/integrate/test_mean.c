@@ -8,8 +8,7 @@
 
 static test_scene scene;
 
-/* --- the rule: Gauss-Legendre in z, equal steps in azimuth ---------------------------------------
- */
+/* --- the rule: Gauss-Legendre in z, equal steps in azimuth ------------------------------------ */
 
 enum { RULE_Z = 40, RULE_AROUND = 2 * RULE_Z };
 
@@ -59,8 +58,7 @@ static void sphere_make(void)
     }
 }
 
-/* --- one facet: its mean, and what the rule makes of it -----------------------------------------
- */
+/* --- one facet: its mean, and what the rule makes of it --------------------------------------- */
 
 /* Per unit of area. exp(1/s^2) erfc(1/s) serves for s above 0.04. */
 static long double mean_of_facet(const lrcs_brdf *b)
@@ -98,8 +96,7 @@ static long double rule_on_facet(const lrcs_brdf *b, const long double n[3], lon
     return mean;
 }
 
-/* --- a body ------------------------------------------------------------------------------------
- */
+/* --- a body ----------------------------------------------------------------------------------- */
 
 /* How far the rule may be off, of the mean: else the test would say little. */
 #define RULE_OFF 1e-6

@@ -22,8 +22,7 @@ static double between(double low, double high)
     return low * pow(high / low, random_unit(&seed));
 }
 
-/* --- one shape in a view -----------------------------------------------------------------------
- */
+/* --- one shape in a view ---------------------------------------------------------------------- */
 
 typedef struct patch_scene {
     lrcs_place place;
@@ -65,8 +64,7 @@ static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const l
     s->plan = lrcsi_plan_make(&s->view, &clear, &run);
 }
 
-/* --- the reference -----------------------------------------------------------------------------
- */
+/* --- the reference ---------------------------------------------------------------------------- */
 
 static double reflect_at(const lrcs_brdf *brdf, double c)
 {
@@ -144,8 +142,7 @@ static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi
     return sum * wide / 24 / 24;
 }
 
-/* --- tests -------------------------------------------------------------------------------------
- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
 static lrcs_shape any_shape(void)
 {

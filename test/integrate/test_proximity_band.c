@@ -71,8 +71,7 @@ static lrcs_result look(const built *b, const double d[3], int method)
     return result;
 }
 
-/* --- what the comparisons came to --------------------------------------------------------------
- */
+/* --- what the comparisons came to ------------------------------------------------------------- */
 
 #define KEPT 100000
 

@@ -11,8 +11,7 @@ static const int methods[METHODS] = {LRCS_METHOD_FACET, LRCS_METHOD_ZBUFFER, LRC
 
 #define SCENES 16u /* of each family */
 
-/* --- families ----------------------------------------------------------------------------------
- */
+/* --- families --------------------------------------------------------------------------------- */
 
 /* A multiple of 2^-bits in -reach .. reach. */
 static double grain(uint64_t *seed, int bits, uint32_t reach)
@@ -179,8 +178,7 @@ static void each_scene(int laws, double (*change)(uint64_t *seed, double directi
     }
 }
 
-/* --- what changes nothing ----------------------------------------------------------------------
- */
+/* --- what changes nothing --------------------------------------------------------------------- */
 
 static double turn_both(uint64_t *seed, double direction[3])
 {
@@ -318,8 +316,7 @@ static void scaling_by_powers_of_two_is_exact(void **state)
     }
 }
 
-/* --- methods and areas -------------------------------------------------------------------------
- */
+/* --- methods and areas ------------------------------------------------------------------------ */
 
 static void methods_agree_at_ten_resolutions(void **state)
 {

@@ -371,8 +371,7 @@ static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
     assert_true(known > 3 * NASTY_FAMILIES);
 }
 
-/* --- what is not known, and what takes no part -------------------------------------------------
- */
+/* --- what is not known, and what takes no part ------------------------------------------------ */
 
 /* The sum of the bins is sigma of the facets, within the bounds of both but for what curved shapes
    would add to them. */

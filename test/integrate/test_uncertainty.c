@@ -40,8 +40,7 @@ static outcome run_with(const lrcs_prepared *prepared, const double direction[3]
     return out;
 }
 
-/* --- shapes, alone ------------------------------------------------------------------------------
- */
+/* --- shapes, alone ---------------------------------------------------------------------------- */
 
 static lrcs_scene shape_scene;
 
@@ -194,8 +193,7 @@ static void limits_of_absent_terms_and_of_no_slope(void **state)
     check_same(got.d[0].ds, 0.0);
 }
 
-/* --- facets under shadow, and curved normals ----------------------------------------------------
- */
+/* --- facets under shadow, and curved normals -------------------------------------------------- */
 
 static test_scene scene;
 
@@ -578,8 +576,7 @@ static void the_result_is_that_of_the_pose_alone(void **state)
     assert_true(got.u.deviation_m2 > 0);
 }
 
-/* --- uncertainty --------------------------------------------------------------------------------
- */
+/* --- uncertainty ------------------------------------------------------------------------------ */
 
 static void without_errors_there_is_no_uncertainty(void **state)
 {
@@ -886,8 +883,7 @@ static void the_work_area_grows_until_it_suffices(void **state)
                    0));
 }
 
-/* --- attitude -----------------------------------------------------------------------------------
- */
+/* --- attitude --------------------------------------------------------------------------------- */
 
 /* sigma of a plate turned by deg about y: 4 pi cos^2 f_r. Turning the body by +1 deg about the
    view's y axis takes the normal from theta to theta - 1 deg where the laser stands on that side.

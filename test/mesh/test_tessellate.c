@@ -474,8 +474,7 @@ static void true_point(const lrcs_shape *shape, double lower, double upper, doub
 }
 
 /* The map of mesh/shape/revolution.c from the true surface onto the facets, point by point over a
- * sector.
- */
+   sector. */
 static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_zones)
 {
     enum { STEPS = 24 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The special functions against mpmath at 60 digits: exp(x^2) erfc(x), and sqrt(pi) Gamma((nu+1)/2)
-   / Gamma((nu+2)/2) by loggamma (their first asymptotic terms beyond 1e3 and 1e9); and at 30 digits
-   the root of Student's distribution by betainc. */
+/* The special functions against mpmath at 60 digits: exp(x^2) erfc(x), and
+   sqrt(pi) Gamma((nu+1)/2) / Gamma((nu+2)/2) by loggamma (their first asymptotic terms beyond 1e3
+   and 1e9); and at 30 digits the root of Student's distribution by betainc. */
 #include "optics/special.h"
 
 #include "check.h"

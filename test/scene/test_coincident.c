@@ -167,8 +167,7 @@ static void facets_of_curved_shapes_are_no_copies(void **state)
     }
 }
 
-/* --- opposite pairs
- * ------------------------------------------------------------------------------------ */
+/* --- opposite pairs --------------------------------------------------------------------------- */
 
 /* Plates, boxes and a polyhedron on a lattice: they touch, pierce each other, and lie in one plane
    in part. */

@@ -29,7 +29,7 @@ static void turned(const double direction[3])
 }
 
 /* Asks for all facets that can be seen, undecided or not. Returns how many there are; *left is how
- * many stay open. */
+   many stay open. */
 static uint32_t ask(uint32_t *left)
 {
     uint32_t asked = 0;

@@ -238,7 +238,7 @@ static void bounds_hold_the_exact_area_of_each_facet(void **state)
 }
 
 /* Symptom: where no facet was known to be seen whole, the areas of none were computed, from
- * nowhere. */
+   nowhere. */
 static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **state)
 {
     (void)state;

@@ -111,7 +111,7 @@ static double longitude_shift(double longitude)
 }
 
 /* A quadrilateral of a row of cells. Each overlaps the next one to the right and above, which is
- * drawn later. */
+   drawn later. */
 static void ellipse_quad(const map_layout *layout, double west, double east, const double height[2],
                          uint32_t colour)
 {

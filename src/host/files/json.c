@@ -127,7 +127,7 @@ void lrcs_host_json_numbers(lrcs_host_json *json, const char *key, const double 
 }
 
 /* One value of lrcs_host_json_put, of the conversion after its '%'. Returns the length of the
- * conversion. */
+   conversion. */
 static size_t json_conversion(lrcs_host_json *json, const char *key, const char *conversion,
                               va_list *list)
 {

@@ -242,8 +242,8 @@ uint64_t lrcs_host_plan_place(const lrcs_host_plan *plan, uint64_t row, uint32_t
 }
 
 /* Point i of a spherical Fibonacci lattice of N: z = 1 - (2 i + 1) / N, and the azimuth is i times
-   the golden section of a full turn, in whole numbers of which 2^64 are a full turn: i (2^64 /
-   phi). Source: R. Swinbank, R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769. */
+   the golden section of a full turn, in whole numbers of which 2^64 are a full turn:
+   i (2^64 / phi). Source: R. Swinbank, R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769. */
 static void sphere_point(uint64_t i, uint64_t count, double direction[3])
 {
     uint64_t azimuth = i * 0x9e3779b97f4a7c15u;

@@ -16,9 +16,9 @@
    y / y_rim, sin alpha = y cos alpha, and across = y_rim C / (mu R), where C is the mean of cos
    alpha at both rows: the first term is then [y |cos alpha - C| + C y_rim (rho - r)/R] |sin vh|. On
    a straight wall sin alpha = S is constant. With across = S / (mu r'), r' the mean of the radii of
-   the rows, the first term is S |1 - r/r'| |sin vh|, at most S D |sin vh| with D = |rho0 - rho1| /
-   (rho0 + rho1). The mean of |1 - r/r'| over the patch, where r has a density in proportion to r,
-   is D/2.
+   the rows, the first term is S |1 - r/r'| |sin vh|, at most S D |sin vh| with
+   D = |rho0 - rho1| / (rho0 + rho1). The mean of |1 - r/r'| over the patch, where r has a density
+   in proportion to r, is D/2.
 
    Along, half the range of the difference of both sides.
    - Straight wall: along = 0; sin(alpha - nu) is constant.
@@ -27,8 +27,8 @@
          (rho cos vh - kappa r) cos nu - (z - z') sin nu.
      There rho - r is between 0 and lrcsi_zone_outside, and (1 - kappa) r varies by
      |1 - kappa| (rho0 - rho1). With a and beta the fractions of the height, z - z' is a constant
-   and (beta - a) dz + beta (dz' - dz), dz and dz' the rises of patch and facets; beta - a is
-   between 0 and (rho0 - rho1) / (4 (rho0 + rho1)).
+     and (beta - a) dz + beta (dz' - dz), dz and dz' the rises of patch and facets; beta - a is
+     between 0 and (rho0 - rho1) / (4 (rho0 + rho1)).
    - Paraboloid: f = sin(alpha - nu) as a function of y = tan alpha has
          |f''| = |sin(alpha - nu) + 2 y cos(alpha - nu)| cos^4 alpha,
      so that it differs from its chord between both rows by at most (y1 - y0)^2 / 8 times the

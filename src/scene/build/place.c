@@ -295,9 +295,9 @@ static placed_bound bound_scale(placed_bound x, const double s[3])
 
 /* R x has three products and two sums per row. Their rounding is at most 3 u (1 + 3 u) times the
    sum of the magnitudes of the products, which is at most the largest sum of |R_ij| over a row
-   times the size of x. The nearest rotation differs from R by at most half of |R^T R - I| (1 +
-   2^-40), so that it takes x, whose length is at most sqrt(3) size, to a point at most 0.87 |R^T R
-   - I| size away. */
+   times the size of x. The nearest rotation differs from R by at most half of
+   |R^T R - I| (1 + 2^-40), so that it takes x, whose length is at most sqrt(3) size, to a point at
+   most 0.87 |R^T R - I| size away. */
 static placed_bound bound_rotation(placed_bound x, const double R[3][3])
 {
     lrcsi_dd D[3][3];

@@ -7,8 +7,8 @@
    is visible, not with what is hidden behind it. A cell with many cuts is halved first, because
    each cut meets few of the small cells.
 
-   Error. In the facet's frame (visibility/target.c) the corners have a position error of at most e
-   = 10 u r, where r is the facet's reach: the rows of R are orthonormal to 4 u; a rounded
+   Error. In the facet's frame (visibility/target.c) the corners have a position error of at most
+   e = 10 u r, where r is the facet's reach: the rows of R are orthonormal to 4 u; a rounded
    difference, three products and two sums follow. Let p be the perimeter of the facet's projection
    and d its diameter. The error of the facet's own corners moves its boundary by e; the area error,
    2 e p, is charged once.
@@ -431,7 +431,8 @@ lrcsi_visible_area ref_occlude_area(ref_occluding *o)
    exceeds the area of the strips (integrate/tessellation.c), so each must be processed alone. */
 static int can_process_together(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->has_curved_shapes && !prepared->convex;
+    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->has_curved_shapes &&
+           !prepared->convex;
 }
 
 size_t ref_occlude_need(const lrcs_prepared *prepared)
