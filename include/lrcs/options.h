@@ -66,8 +66,12 @@ enum lrcs_progress_stage {
 /* The stage in words, or NULL. */
 const char *lrcs_progress_text(int stage);
 
-/* How far a run is: written by the run, for a signal handler or another thread of the caller's that
-   shows it. Nothing else depends on it. */
+/* How far a run is: written by the run, for a signal handler of the same thread that shows it.
+   Nothing else depends on it. The fields are written one after the other, so that a handler may see
+   those of two stages mixed; each is seen whole where a uint32_t is read and written at once, as on
+   all machines on which this library is tested, although C11 promises it of sig_atomic_t alone.
+   Nothing is promised to another thread: nothing is synchronised, and to C11 its access would be a
+   data race. */
 typedef struct lrcs_progress {
     volatile uint32_t stage;       /* lrcs_progress_stage */
     volatile uint32_t done, total; /* of the facets or blocks of the stage; total 0: not known */
