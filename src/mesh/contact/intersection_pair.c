@@ -6,9 +6,8 @@
    or along a common side. All other pairs are decided exactly.
 
    The exact predicates, for F with corners a_0 a_1 a_2 and T with corners p_0 p_1 p_2:
-      1. Signs of the corners of each facet relative to the plane of the other. If those of the
-   corners that are not common are all positive or all negative, the two meet at most in what is
-   common.
+   1. Signs of the corners of each facet relative to the plane of the other. If those of the corners
+      that are not common are all positive or all negative, the two meet at most in what is common.
    2. All are zero: the facets are coplanar. Seen along an axis along which they are not edge-on,
       neither meets the interior of the other if and only if the line of some side has one facet on
       one side and the other facet on the other side or on the line (separating axis theorem). If it
