@@ -13,11 +13,11 @@
    2. Inside C, every point of the view plane belongs to one facet and to one patch. At the border
       it may belong to one of both only. A side of a sector is a segment of f' and an arc of U'; the
       margin between them is swept by the segments from a point of one to the point of the other
-   with the same parameter. The integral over U' exceeds that over f' by the sum over all sides of
-   the integrals over the margins, with the sign of their areas (Stokes' theorem for the homotopy of
-      both borders). Sides inside C cancel.
-   3. Beside a side that is free (11), w = v, all 1 or all 0: there the integral of G over the
-   margin is added, or nothing. Any other margin is an error, either way. []
+      with the same parameter. The integral over U' exceeds that over f' by the sum over all sides
+      of the integrals over the margins, with the sign of their areas (Stokes' theorem for the
+      homotopy of both borders). Sides inside C cancel.
+   3. Beside a side that is free (11), w = v, all 1 or all 0: there the integral of G over the margin
+      is added, or nothing. Any other margin is an error, either way. []
 
    The integrals of G over visible pieces use rules of positive weights that are exact up to degree
    n: twice the largest difference between G and its Taylor polynomial bounds their error. */

@@ -220,19 +220,14 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
         lrcsi_round_sum *sum = &margin->sum;
         *margin = (lrcsi_round_margin){.width = 0};
         for (int i = 0; i < n && sum->remainder < HUGE_VAL; i++) {
-            double width;
-            double slope;
+            double width = 0;
+            double slope = 0;
             margin_part part;
-            if (!margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n, &part)) {
+            if (!margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n, &part) ||
+                !(part.centre.s >= MIN_COSINE * part.centre.length)) {
                 return 0;
             }
-            double bound = part.centre.s >= MIN_COSINE * part.centre.length
-                               ? margin_bound(wall, side, &part, 1, 1, &width, &slope)
-                               : HUGE_VAL;
-            if (!(bound < HUGE_VAL)) {
-                sum->remainder = HUGE_VAL;
-                break;
-            }
+            double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
             double size = bound * (part.length + slope) * LRCSI_ROUND_UPWARD;
             margin->largest += 2 * size * width;
             margin->width = lrcsi_max(margin->width, width);
