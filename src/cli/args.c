@@ -11,7 +11,7 @@
 
 #define NAME_MOST 64u
 
-static void message_print(const char *format, va_list list)
+__attribute__((format(printf, 1, 0))) static void message_print(const char *format, va_list list)
 {
     cli_watch_end();
     fputs("lrcs: ", stderr);
