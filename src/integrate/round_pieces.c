@@ -240,7 +240,10 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     double bound = facet_bound(job, facet);
     lrcsi_round_sum sum = {0, 0, 0, 0};
     double area_err = 0;
-    int known = bound < HUGE_VAL;
+    int known = 1;
+    if (!(bound < HUGE_VAL)) {
+        return 0;
+    }
     lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
         const lrcsi_clip_polygon *polygon = &o->single.piece;
@@ -286,13 +289,11 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
             !band->hidden[band->region[facet]]);
 }
 
-/* Is a facet on a round wall that may be used, apart from its visibility? */
+/* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of
+   facets of such walls that face the laser. */
 static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 {
-    const lrcs_prepared *p = job->view->prepared;
-    const lrcs_part *part = lrcsi_patch_part(p, facet);
-    return !p->skip[facet] && job->view->facing[facet] > 0 && job->band->gain_aligned[facet] >= 0 &&
-           lrcsi_shape_is_round(part->kind) && part->rigid && lrcsi_patch_exists(p, facet);
+    return job->band->gain_aligned[facet] >= 0 && lrcsi_patch_exists(job->view->prepared, facet);
 }
 
 /* May a sector be used, apart from what the integrals need? */
@@ -403,12 +404,13 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
         terms[f].known = 0;
     }
     for (uint32_t f = 0; f < count && plan->patches; f++) { /* 1 */
-        if (terms[f].known || !facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
+        if (!facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
             continue;
         }
         job_take_wall(&job, f);
         if ((job.wall.brdf.A > 0 && !(job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN)) ||
             !lrcsi_round_sector_make(&job.wall, f, &sector) ||
+            (f != sector.facet[0] && facet_is_uncertain(&job, sector.facet[0])) || /* tried */
             !sector_is_candidate(&job, &sector) || !sector_has_margins(&job, &sector)) {
             continue;
         }

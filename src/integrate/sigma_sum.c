@@ -126,7 +126,7 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. finds the hidden regions of the proximity band, and integrates over the visible pieces of
-   round walls;
+      round walls;
    4. sums. Steps are taken from the given meter, which is that of the run or of an attempt. */
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
 {
@@ -146,10 +146,10 @@ void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
             run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
         }
     }
+    run->round_terms = NULL;
     if (run_band(run)) {
         lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
     }
-    run->round_terms = NULL;
     if (run_band(run) && run->moment && !run->request.derivatives) {
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->band, run->visible, meter,
                                 run->work, run->round_terms_memory);

@@ -211,8 +211,7 @@ static float fraction_float(double fraction)
 /* Pairs are allocated one by one and must be contiguous. */
 _Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between pairs");
 
-/* Is it asked which parts are near a facet? It is for those on the walls of round shapes. */
-static int near_matters(const lrcs_prepared *p, uint32_t facet)
+int lrcsi_proximity_on_round_wall(const lrcs_prepared *p, uint32_t facet)
 {
     const uint32_t part = p->scene->facet_part[facet];
     return p->scene->facet_smooth[facet] != 0 && p->proximity.reach[part] > 0 &&
@@ -270,7 +269,7 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    const int near = near_matters(p, facet);
+    const int near = lrcsi_proximity_on_round_wall(p, facet);
     double within =
         (near ? LRCSI_PROXIMITY_NEAR : 1) *
         (2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR);

@@ -10,7 +10,6 @@
 #include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
 #include "visibility/depth_order.h"
 #include "visibility/edge_rectangle.h"
@@ -490,8 +489,7 @@ static int begin_aligned(band_job *job, uint32_t facet)
     const uint32_t own = band_part(job, facet);
     const lrcsi_part_set near = p->proximity.near[facet];
     double open = 0;
-    if (!lrcsi_shape_is_round(p->scene->part[own].kind) || !p->scene->part[own].rigid ||
-        !(p->proximity.reach[own] > 0) || p->scene->facet_smooth[facet] == 0 ||
+    if (!lrcsi_proximity_on_round_wall(p, facet) || !p->scene->part[own].rigid ||
         job->view->facing[facet] <= 0) {
         return 0;
     }
