@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Draws a view as graphics hardware does. This file decides which facet owns which pixel, by the
-   arithmetic and rules of that hardware; visibility/raster_draw.c and visibility/occlude.c decide
+   arithmetic and rules of that hardware; visibility/raster/raster_draw.c and visibility/occlude.c decide
    what the laser truly sees. */
 #include "analysis/gpu.h"
 

@@ -4,14 +4,14 @@
 #ifndef LRCSI_COST_H
 #define LRCSI_COST_H
 
-#include "visibility/classify.h"
+#include "visibility/uniform/classify.h"
 
 /* Counts of a view; all but the first are estimated from a sample of its facets. */
 typedef struct lrcsi_cost {
     double facets;
     double casting;  /* facets that can hide something */
     double contacts; /* those of them that are in contact with another facet */
-    double events;   /* event edges (visibility/event.h) */
+    double events;   /* event edges (visibility/index/event.h) */
     double borders;  /* their total length in the view; unit: side of the window */
     double overdraw; /* projected area of all casting facets; unit: area of the window */
 } lrcsi_cost;
@@ -22,7 +22,7 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view);
 /* The estimated number of undecided facets. */
 double lrcsi_cost_undecided(const lrcsi_cost *cost);
 
-/* The estimated time, ns, of a raster of size x size samples (visibility/preview.h), and of
+/* The estimated time, ns, of a raster of size x size samples (visibility/raster/preview.h), and of
    clipping the given number of undecided facets. */
 double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size);
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided);

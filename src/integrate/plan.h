@@ -30,8 +30,8 @@ typedef struct lrcsi_plan {
     int shadows_forced; /* shadows are searched for even if nothing is hidden */
     int no_back_hidden; /* no facet hides a back side that could be visible */
     int proximity_band; /* differences in visibility between curved shapes and their facets are
-                           bounded by a proximity band (visibility/proximity_band.h) */
-    int patches;        /* facets of curved walls represent the true surface (integrate/patch.h) */
+                           bounded by a proximity band (visibility/proximity/proximity_band.h) */
+    int patches; /* facets of curved walls represent the true surface (integrate/wall/patch.h) */
     double tolerance;   /* lrcs_run_options.tolerance */
     int glint, diffuse; /* lrcsi_term_use */
 } lrcsi_plan;

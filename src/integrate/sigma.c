@@ -13,8 +13,8 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
-#include "visibility/preview.h"
-#include "visibility/proximity_hidden.h"
+#include "visibility/proximity/proximity_hidden.h"
+#include "visibility/raster/preview.h"
 
 lrcs_run_options lrcs_run_options_default(void)
 {

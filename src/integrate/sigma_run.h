@@ -5,7 +5,7 @@
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
-#include "integrate/total.h"
+#include "integrate/sum/total.h"
 
 enum lrcsi_sigma_stage {
     LRCSI_SIGMA_VIEW,       /* which facets face the laser; their view coordinates, if needed */

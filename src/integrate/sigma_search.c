@@ -9,7 +9,7 @@
 #include "base/work.h"
 #include "integrate/cost.h"
 #include "integrate/sigma_run.h"
-#include "visibility/preview.h"
+#include "visibility/raster/preview.h"
 
 /* Clipping is tried before a raster if its estimated cost is at most this many times that of the
    raster: by the first factor before the first raster, by the second before each later one.

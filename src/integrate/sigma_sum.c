@@ -6,7 +6,7 @@
 
 #include "base/range.h"
 #include "integrate/sigma_run.h"
-#include "visibility/proximity_hidden.h"
+#include "visibility/proximity/proximity_hidden.h"
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
 

@@ -2,7 +2,7 @@
 /* The bulk of a scene: a box around most of its vertices. The origin of views is its centre, and
    grids are sized for it, so that a few distant vertices neither increase the rounding errors of
    the others (which grow with the distance from the origin) nor leave all others in a single cell
-   of a grid (visibility/grid.h). */
+   of a grid (visibility/index/grid.h). */
 #ifndef LRCSI_BULK_H
 #define LRCSI_BULK_H
 

@@ -26,7 +26,7 @@ double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part
                                     double lateral);
 
 /* The slack in projection where points of the true surface correspond to points of facets of the
-   same projection (visibility/proximity_band.h, 11). */
+   same projection (visibility/proximity/proximity_band.h, 11). */
 double lrcsi_proximity_slack_aligned(const lrcs_prepared *prepared, uint32_t other);
 
 /* How far points of the true surface may be from their images on a facet: by at most `bound[i]`

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "base/work.h"
-#include "visibility/cells.h"
-#include "visibility/query.h"
+#include "visibility/cells/cells.h"
+#include "visibility/uniform/query.h"
 
-/* Undecided facets are processed together (visibility/cells.h) if there are at least MIN_UNDECIDED
+/* Undecided facets are processed together (visibility/cells/cells.h) if there are at least MIN_UNDECIDED
    of them, and at least one in MIN_FRACTION facets: to process them together, all facets are sorted
    into blocks, which costs more than processing a few facets one by one. */
 #define MIN_UNDECIDED 192u

@@ -4,7 +4,7 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/facet_cells.h"
+#include "visibility/cells/facet_cells.h"
 
 /* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occlusion {
@@ -51,7 +51,7 @@ lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
 lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
 
 /* All facets: uniform ones by one exact sample; undecided ones together if there are many
-   (visibility/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the
+   (visibility/cells/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the
    areas include what is still open.
    Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
    all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.

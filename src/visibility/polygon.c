@@ -31,7 +31,7 @@ typedef struct ring_list {
 /* A ring's point on the facet and in the view. Errors, with D the largest coordinate: on the facet
    8 u D (three products and two sums, with barycentric coordinates that add up to 1 within 4 u); in
    the view 4 u D for the first corner and 10 u of the reach, at most 2 D, for the frame. The
-   barycentric coordinates add at most 100 u of the reach (visibility/target.h). */
+   barycentric coordinates add at most 100 u of the reach (visibility/cells/target.h). */
 static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
 {
     const lrcs_prepared *p = t->view->prepared;

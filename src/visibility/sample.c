@@ -218,7 +218,7 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
    for a decision: which is nearer if the line is moved as in lrcsi_sample_covers_towards. Along
    axis k, heights fall by N_k / (N . d). The answer may be wrong if the line does not meet the
    intersection exactly. No bound depends on it: both facets are then undecided, and the pixel
-   counts as mixed (visibility/visible.c). */
+   counts as mixed (visibility/raster/visible.c). */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second, int sense,
                           lrcsi_dd first_denominator, lrcsi_dd second_denominator)
 {

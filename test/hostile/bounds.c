@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "visibility/cells.h"
+#include "visibility/cells/cells.h"
 #include "visibility/occlude.h"
 
 #define MOST 256

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The cubature over interpolated normals against references of another method
    (test/vectors/cubature.py), closed forms, and its own promises. */
-#include "integrate/cubature.h"
+#include "integrate/cubature/cubature.h"
 
 #include "check.h"
 

@@ -4,7 +4,7 @@
    the steps that a run takes, are what they are without it. (With exact answers: test_hostile.c and
    make bounds.) */
 #include "scenes.h"
-#include "visibility/grid.h"
+#include "visibility/index/grid.h"
 
 static test_scene scene;
 static lrcs_facet_record before[SCENE_FACETS];

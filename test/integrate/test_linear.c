@@ -2,7 +2,7 @@
 /* The linear approximation over a patch against F at points of the true surface, and its integral
    over parts of the patch, by sums over the map onto the facets (mesh/shape/revolution.c), written
    down here once more. usage: test_linear [SHAPES SEED]    (many more) */
-#include "integrate/linear.h"
+#include "integrate/wall/linear.h"
 
 #include <lrcs/lrcs.h>
 

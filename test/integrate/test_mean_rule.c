@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The Gauss-Legendre rules against the means of powers over [-1, 1] in closed form. */
-#include "integrate/mean_rule.h"
+#include "integrate/wall/mean_rule.h"
 
 #include "check.h"
 

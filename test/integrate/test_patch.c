@@ -2,7 +2,7 @@
 /* Means over patches of true surfaces against quadrature of the same surfaces written down here
    with other parameters: spheres over the square root of the depth below the top, paraboloids over
    the radius. usage: test_patch [SHAPES SEED]    (many more) */
-#include "integrate/patch.h"
+#include "integrate/wall/patch.h"
 
 #include <lrcs/lrcs.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The wall of a round shape as a function on the view plane: against its definition, evaluated
    independently, and its bound against values at complex points. */
-#include "integrate/round_surface.h"
+#include "integrate/wall/round_surface.h"
 
 #include <lrcs/lrcs.h>
 

@@ -5,12 +5,12 @@
    every larger area; at _need it is served, and undegraded. */
 #include "build3ds.h"
 #include "curved.h"
-#include "integrate/cubature.h"
+#include "integrate/cubature/cubature.h"
 #include "scene/proximity.h"
 #include "scene/solid.h"
 #include "scenes.h"
 #include "starve.h"
-#include "visibility/proximity_band.h"
+#include "visibility/proximity/proximity_band.h"
 
 static const char text[] =
     "[[material]]\nname='m'\nlike='mli-gold'\n[[part]]\nname='low'\nshape='plate'\n"

@@ -5,7 +5,7 @@
 #include <lrcs/polygon.h>
 
 #include "scenes.h"
-#include "visibility/classify.h"
+#include "visibility/uniform/classify.h"
 
 static test_scene scene;
 static test_scene reference;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Compares three methods: cells of the view plane for all facets together (visibility/cells.h),
-   cells of each facet alone (visibility/facet_cells.h), and the clipping that both replaced
+/* Compares three methods: cells of the view plane for all facets together (visibility/cells/cells.h),
+   cells of each facet alone (visibility/cells/facet_cells.h), and the clipping that both replaced
    (test/visibility/reference). For each given model or scene and the given number of directions, it
    tests whether the bounds of all facets overlap, and prints the cost of each method. The exit
    status is 1 if some bounds do not overlap.
@@ -14,8 +14,8 @@
 #include <time.h>
 
 #include "base/work.h"
-#include "visibility/cells.h"
-#include "visibility/facet_cells.h"
+#include "visibility/cells/cells.h"
+#include "visibility/cells/facet_cells.h"
 #include "visibility/reference/occlude.h"
 
 #define MEMORY ((size_t)1 << 30)

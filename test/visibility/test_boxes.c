@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Boxes of meshlets in the view. */
-#include "visibility/boxes.h"
+#include "visibility/index/boxes.h"
 
 #include "visibility/stacked.h"
 

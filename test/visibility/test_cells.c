@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Cells of the view plane find the areas that clipping finds facet by facet, within both bounds,
    whatever touches what. */
-#include "visibility/cells.h"
+#include "visibility/cells/cells.h"
 
 #include "base/work.h"
 #include "scenes.h"
 #include "visibility/occlude.h"
-#include "visibility/query.h"
+#include "visibility/uniform/query.h"
 
 static test_scene scene;
 static lrcs_work work;

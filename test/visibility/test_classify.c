@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Which facets are undecided, by what, and which of those a component hides all the same; and the
    grids that find them. Scenes are small enough to count by hand. */
-#include "visibility/classify.h"
+#include "visibility/uniform/classify.h"
 
 #include "base/disjoint.h"
 #include "scenes.h"
-#include "visibility/query.h"
+#include "visibility/uniform/query.h"
 
 static test_scene scene;
 static lrcs_work work;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Where facets meet each other's planes, and which is nearer, by hand. */
-#include "visibility/contact.h"
+#include "visibility/cells/contact.h"
 
 #include "visibility/plate_and.h"
 #include "visibility/sample.h"

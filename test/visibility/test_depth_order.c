@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which parts hide nothing of another: pairs placed so that the answer is plain, whichever way the
    pair is turned, in both roles; and what rounding leaves open of the facets where they touch. */
-#include "visibility/depth_order.h"
+#include "visibility/proximity/depth_order.h"
 
 #include "base/rotate.h"
 #include "base/vec3.h"

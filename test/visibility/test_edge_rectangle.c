@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which part of a facet lies in the rectangle about an edge: fractions of a triangle that are known
    by elementary geometry, seen from above. */
-#include "visibility/edge_rectangle.h"
+#include "visibility/proximity/edge_rectangle.h"
 
 #include "scenes.h"
 

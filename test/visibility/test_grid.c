@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Grids list what stands in a bucket, and never more than they have asked memory for: whatever the
    size of the facets, in every number of bytes. */
-#include "visibility/grid.h"
+#include "visibility/index/grid.h"
 
-#include "visibility/classify.h"
 #include "visibility/stacked.h"
+#include "visibility/uniform/classify.h"
 
 static unsigned char little[1u << 20];
 

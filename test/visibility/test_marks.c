@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Marks that are cleared all at once, also where their numbers begin again. */
-#include "visibility/marks.h"
+#include "visibility/index/marks.h"
 
 #include "check.h"
-#include "visibility/cells_cover.h"
+#include "visibility/cells/cells_cover.h"
 
 enum { FACETS = 4 };
 

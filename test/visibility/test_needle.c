@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The frame of a needle. Coordinates are such that shares are known exactly: a point is put
    together from the sides with dyadic shares, and moved along the direction, without rounding. */
-#include "visibility/target.h"
+#include "visibility/cells/target.h"
 
 #include "scenes.h"
 

@@ -3,7 +3,7 @@
 #include "visibility/occlude.h"
 
 #include "scenes.h"
-#include "visibility/query.h"
+#include "visibility/uniform/query.h"
 
 static test_scene scene;
 static lrcs_work work;

@@ -2,7 +2,7 @@
 /* Outlines of true shapes beside those of their facets: the areas along all edges together, against
    those between both outlines, measured along rays through points of every edge. And which planes a
    shape is in front of. */
-#include "visibility/outline.h"
+#include "visibility/proximity/outline.h"
 
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 #include "check.h"
 #include "random.h"
-#include "visibility/event.h"
+#include "visibility/index/event.h"
 
 #define SHAPES 6
 #define RAYS   6 /* through each edge */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Areas from samples alone: the shares of the z-buffer's samples; likely errors near the true ones;
    no more memory than promised. */
-#include "visibility/preview.h"
+#include "visibility/raster/preview.h"
 
 #include "scenes.h"
 #include "visibility/occlude.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The raster: shared edges leave no crack and no overlap, wherever they fall; the nearest facet
    owns its samples, as exact tests of each sample say, in whatever order facets come. */
-#include "visibility/raster.h"
+#include "visibility/raster/raster.h"
 
 #include "scenes.h"
 #include "visibility/sample.h"

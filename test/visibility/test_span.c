@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Spans against whole numbers: triangles whose corners are eighths of a pixel, so that every edge
    function over a pixel is a multiple of 1 / 128, and 128 times it an integer. */
-#include "visibility/span.h"
+#include "visibility/raster/span.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* From points of a facet's frame back to the facet: its corners exactly, needles along their whole
    length, points beside it to its rim. */
-#include "visibility/target.h"
+#include "visibility/cells/target.h"
 
 #include "scenes.h"
 
@@ -89,7 +89,7 @@ static void points_come_back_to_where_they_are_seen_in_any_needle(void **state)
             worst = fmax(worst, strays(&t, at, weight));
         }
     }
-    check_most(worst, 100); /* of visibility/target.h */
+    check_most(worst, 100); /* of visibility/cells/target.h */
 }
 
 static void points_beside_the_facet_go_to_its_rim(void **state)

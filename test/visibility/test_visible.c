@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What the sampled areas draw, against the whole picture: the tiles that matter hold just what the
    picture holds there, and the memory of the others is never touched. */
-#include "visibility/visible.h"
+#include "visibility/raster/visible.h"
 
 #include "scenes.h"
 #include "visibility/occlude.h"
-#include "visibility/query.h"
+#include "visibility/uniform/query.h"
 
 enum { N = 72, FINE = 8 };
 static const unsigned char untouched = 0xa5;

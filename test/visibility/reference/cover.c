@@ -4,7 +4,7 @@
    the facet.
 
    Suppose that a component hides the point of the sample and ends at no cut of the cell. Along any
-   path in the cell, except at the cuts, the component continues (visibility/classify.h) and remains
+   path in the cell, except at the cuts, the component continues (visibility/uniform/classify.h) and remains
    in front of the target: to pass behind the target it would have to intersect it. So it hides the
    whole cell.
 
@@ -18,7 +18,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/contact.h"
+#include "visibility/cells/contact.h"
 #include "visibility/sample.h"
 
 #define U 0x1p-53
@@ -276,7 +276,7 @@ static int line_hidden(const cover_line *line, ref_cover_facet *c)
 }
 
 /* The point in space that represents a line. Its position error is 100 u of the reach
-   (visibility/target.h) and 8 u of the target's coordinates. This is too much for a needle. */
+   (visibility/cells/target.h) and 8 u of the target's coordinates. This is too much for a needle. */
 static void line_lift(cover_line *line)
 {
     const lrcsi_target *t = line->cuts->target;

@@ -4,8 +4,8 @@
 #ifndef REF_COVER_H
 #define REF_COVER_H
 
-#include "visibility/query.h"
 #include "visibility/reference/cut.h"
+#include "visibility/uniform/query.h"
 
 enum ref_cover_answer {
     REF_COVER_NONE,   /* nothing hides the point */

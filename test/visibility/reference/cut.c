@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The cuts of a facet, and which of them come near a part of it. That no other edge or contact can
-   divide the facet is exact (visibility/classify.h); only positions are computed in doubles.
+   divide the facet is exact (visibility/uniform/classify.h); only positions are computed in doubles.
 
    Errors. In the facet's frame, let d be the facet's diameter, and r the largest distance, in
    space, of a segment's ends from the facet's first corner; the part of a long segment that is far
-   from the facet is removed first. The ends have a position error of 10 u r (visibility/target.h),
-   those of a contact 16 u r and in addition its position_err (visibility/contact.h); the line
+   from the facet is removed first. The ends have a position error of 10 u r (visibility/cells/target.h),
+   those of a contact 16 u r and in addition its position_err (visibility/cells/contact.h); the line
    through them has 2 u r more. The computed side of a line may be wrong only within 4 u (r + d) of
    the line. A computed point where a line meets a side of a cell lies within that plus 8 u d of the
    line. So if the computed distance of a segment from a shape exceeds WIDTH (r + d) plus
@@ -14,7 +14,7 @@
    the line, and the cell lies on one side of the line, except for a strip of that width. (24 u (r +
    d) would be enough, and 30 u (r + d) for a contact.)
 
-   In a needle's frame (visibility/target.h) the errors of the ends are smaller. Segments are
+   In a needle's frame (visibility/cells/target.h) the errors of the ends are smaller. Segments are
    clipped to a box around the needle that extends beyond it by 1. So the part in the box of a
    segment that meets the needle is at least 1 long, unless an end of the segment itself is in the
    box.

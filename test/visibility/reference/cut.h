@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Cuts: what may divide an undecided facet (visibility/classify.h) into parts of different
+/* Cuts: what may divide an undecided facet (visibility/uniform/classify.h) into parts of different
    visibility. They are the event edges that cross it and the contacts with its interior, as
    segments in its frame. A part of the facet that no cut comes near is entirely visible or entirely
    hidden. */
 #ifndef REF_CUT_H
 #define REF_CUT_H
 
-#include "visibility/classify.h"
-#include "visibility/contact.h"
+#include "visibility/cells/contact.h"
+#include "visibility/cells/target.h"
 #include "visibility/reference/clip.h"
-#include "visibility/target.h"
+#include "visibility/uniform/classify.h"
 
 /* The number of surface components that a cut records; a cut with more counts as one of all
    components. */

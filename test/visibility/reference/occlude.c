@@ -7,7 +7,7 @@
    is visible, not with what is hidden behind it. A cell with many cuts is halved first, because
    each cut meets few of the small cells.
 
-   Error. In the facet's frame (visibility/target.c) the corners have a position error of at most
+   Error. In the facet's frame (visibility/cells/target.c) the corners have a position error of at most
    e = 10 u r, where r is the facet's reach: the rows of R are orthonormal to 4 u; a rounded
    difference, three products and two sums follow. Let p be the perimeter of the facet's projection
    and d its diameter. The error of the facet's own corners moves its boundary by e; the area error,
@@ -38,7 +38,7 @@
    q, where q is the cell's perimeter. The sum over all cells has an error of u d p for each.
 
    Needles. A needle in the view may be narrower than all these errors. It is processed in the frame
-   of its barycentric coordinates (visibility/target.h), in which it is as wide as long, and all of
+   of its barycentric coordinates (visibility/cells/target.h), in which it is as wide as long, and all of
    the above holds without change: its corners are exact except for the frame's position_err;
    segments are clipped to a box around it, with the errors that test/visibility/reference/cut.c
    states; samples are taken at points that are not rounded. Areas are counted in units of twice the
@@ -49,8 +49,8 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/cells.h"
-#include "visibility/query.h"
+#include "visibility/cells/cells.h"
+#include "visibility/uniform/query.h"
 
 #define U 0x1p-53
 
@@ -71,7 +71,7 @@
 /* The largest number of waiting cells. Of the two parts of a cell, the one with the sample is
    processed first; the other can then use all the room. */
 #define MOST_WAITING 256u
-/* Undecided facets are processed together (visibility/cells.h) if there are at least CELLS_LEAST of
+/* Undecided facets are processed together (visibility/cells/cells.h) if there are at least CELLS_LEAST of
    them, and if they are at least one in CELLS_SHARE of all facets: all facets are then sorted into
    blocks, which costs more than to clip a few of them. */
 #define CELLS_LEAST 192u
@@ -428,7 +428,7 @@ lrcsi_visible_area ref_occlude_area(ref_occluding *o)
 
 /* Can undecided facets be processed together? There must be many facets, and none may approximate a
    curved surface: the tessellation error of such a facet, if it is hidden except for strips,
-   exceeds the area of the strips (integrate/tessellation.c), so each must be processed alone. */
+   exceeds the area of the strips (integrate/wall/tessellation.c), so each must be processed alone. */
 static int can_process_together(const lrcs_prepared *prepared)
 {
     return prepared->scene->facet_count >= CELLS_LEAST && !prepared->has_curved_shapes &&

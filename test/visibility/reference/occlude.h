@@ -5,10 +5,10 @@
 #ifndef REF_OCCLUDE_H
 #define REF_OCCLUDE_H
 
+#include "visibility/raster/visible.h"
 #include "visibility/reference/clip.h"
 #include "visibility/reference/cover.h"
 #include "visibility/reference/cut.h"
-#include "visibility/visible.h"
 
 /* A cell: a part of the facet that waits to be processed. */
 typedef struct ref_occlude_cell {

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+/* The derivatives of sigma in the parameters of materials, over the visible areas of a pose. With
+   u = tan^2(theta) the two terms of f_r cos^2 at amplitude 1 are
+       g = (1 + u)^2 exp(-u / s^2)      and      d = (1 + u)^(-m/2 - 1),
+   so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
+   except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
+   Visible areas do not depend on materials.
+   Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
+   lrcsi_shape_response_make. */
+#include "integrate/derivative/sensitivity.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/constant.h"
+#include "integrate/wall/linear.h"
+#include "integrate/wall/patch.h"
+#include "optics/reflect.h"
+
+/* The visible fraction of a facet that reflects, as the sum of Eq. 2 has it; 0 if the sum does not
+   include the facet. */
+static double visible_fraction(const lrcsi_sigma *run, uint32_t facet,
+                               const lrcsi_incidence *incidence)
+{
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, NULL};
+    if (!lrcsi_areas_is_summed(&areas, &run->view, facet)) {
+        return 0;
+    }
+    lrcsi_visible_area visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
+    return lrcsi_areas_fraction(visible.area, incidence->projected);
+}
+
+/* The derivative dg/ds = g 2 u / s^3, from g u. */
+static double glint_slope_s(double glint_u, double s)
+{
+    return glint_u > 0 ? 2 * (glint_u / s / s) / s : 0;
+}
+
+/* Adds a facet or a shape: `at`, times a weight. */
+static void response_sum(lrcsi_response *response, double weight, const lrcsi_unit_response *at)
+{
+    lrcsi_sum_add(&response->glint, weight * at->glint);
+    lrcsi_sum_add(&response->glint_s, weight * at->glint_s);
+    lrcsi_sum_add(&response->diffuse, weight * at->diffuse);
+    lrcsi_sum_add(&response->diffuse_m, weight * at->diffuse_m);
+}
+
+/* The response of a unit of area of a flat facet. Given: the BRDF with amplitudes of 1, and u,
+   which is finite for every facet that is not edge-on. */
+static lrcsi_unit_response flat_response(const lrcs_brdf *unit, double u)
+{
+    const double s = unit->s;
+    lrcsi_reflection at = lrcsi_reflect(unit, u, 0);
+    return (lrcsi_unit_response){.glint = at.glint,
+                                 .diffuse = at.diffuse,
+                                 .glint_s = at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0,
+                                 .diffuse_m = at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
+}
+
+/* The patches that a facet's terms are computed from; NULL: from the flat facet. */
+typedef struct response_patches {
+    const lrcsi_patch *own; /* of the material's amplitudes, because whether there is a mean depends
+                               on them: for terms whose amplitude is not 0 */
+    const lrcsi_patch *unit; /* of amplitudes of 1: for terms of amplitude 0 */
+} response_patches;
+
+/* The patches of a facet. Given: the BRDF with the material's amplitudes, and with amplitudes of 1;
+   what evaluates patches for either. The sum of Eq. 2 uses a mean only if `own` has one. */
+static response_patches patches_find(const lrcsi_view *view, const lrcsi_plan *plan,
+                                     const lrcs_brdf *own, const lrcs_brdf *unit, uint32_t facet,
+                                     lrcsi_patches patches[2])
+{
+    response_patches found = {lrcsi_patch_make(view, plan, own, facet, &patches[0]), NULL};
+    if (found.own && !(own->A > 0 && own->B > 0)) {
+        found.unit = lrcsi_patch_make(view, plan, unit, facet, &patches[1]);
+    }
+    return found;
+}
+
+/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it: from the
+   means over its patches, divided by the amplitudes, or from the flat facet. */
+static lrcsi_unit_response facet_response(const lrcs_brdf *own, const lrcs_brdf *unit, double u,
+                                          const response_patches *patches)
+{
+    const double s = unit->s;
+    const lrcsi_patch *p = patches->unit;
+    if (!patches->own) {
+        return flat_response(unit, u);
+    }
+    lrcsi_unit_response at = {0, 0, 0, 0};
+    if (!(own->A > 0 && own->B > 0)) {
+        at = p ? (lrcsi_unit_response){p->glint, p->diffuse, glint_slope_s(p->glint_u, s),
+                                       -0.5 * p->diffuse_log}
+               : flat_response(unit, u);
+    }
+    p = patches->own;
+    if (own->A > 0) {
+        at.glint = p->glint / own->A;
+        at.glint_s = glint_slope_s(p->glint_u / own->A, s);
+    }
+    if (own->B > 0) {
+        at.diffuse = p->diffuse / own->B;
+        at.diffuse_m = -0.5 * (p->diffuse_log / own->B);
+    }
+    return at;
+}
+
+/* The response of the correction of a facet (integrate/wall/linear.h), per unit of its area: from the
+   same patches as in facet_response. */
+static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrcs_brdf *own,
+                                               const lrcs_brdf *unit, uint32_t facet,
+                                               const response_patches *patches)
+{
+    const lrcsi_view *view = &run->view;
+    const lrcs_scene *scene = view->prepared->scene;
+    const lrcs_patch_bounds *c = &scene->part[scene->facet_part[facet]].bounds.patch;
+    double projected = lrcsi_view_projected(view, facet);
+    lrcsi_unit_response at = {0, 0, 0, 0};
+    for (int i = 0; i < 2; i++) {
+        const lrcs_brdf *brdf = i == 0 ? own : unit;
+        const lrcsi_patch *patch = i == 0 ? patches->own : patches->unit;
+        int glint = i == 0 ? own->A > 0 : own->A == 0;
+        int diffuse = i == 0 ? own->B > 0 : own->B == 0;
+        lrcsi_linear linear;
+        if ((glint || diffuse) && patch && lrcsi_linear_make(view, brdf, patch, c, 0, &linear)) {
+            lrcsi_linear_moment m = lrcsi_linear_moment_make(
+                view, facet, patch, &run->visible[facet], &run->moment[facet]);
+            const double x = m.first[0] / projected;
+            const double y = m.first[1] / projected;
+            if (glint && brdf->A > 0) {
+                at.glint = (linear.glint[0] * x + linear.glint[1] * y) / brdf->A;
+                at.glint_s = (linear.glint_s[0] * x + linear.glint_s[1] * y) / brdf->A;
+            }
+            if (diffuse) {
+                at.diffuse = (linear.diffuse[0] * x + linear.diffuse[1] * y) / brdf->B;
+                at.diffuse_m = (linear.diffuse_m[0] * x + linear.diffuse_m[1] * y) / brdf->B;
+            }
+        }
+    }
+    return at;
+}
+
+void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_response *response)
+{
+    const lrcsi_view *view = &run->view;
+    const lrcsi_plan *plan = &run->plan;
+    const lrcsi_clear_shapes *clear = &run->clear;
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_scene *scene = p->scene;
+    lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}};
+    memset(response, 0, scene->material_count * sizeof *response);
+    for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
+        int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
+        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape) {
+            continue;
+        }
+        uint32_t material = scene->facet_material[f];
+        lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+        double fraction = visible_fraction(run, f, &incidence);
+        lrcsi_response *to = &response[material];
+        const double s = brdf[material].s;
+        const double u = incidence.tan2;
+        const lrcs_brdf unit = {s > 0 ? 1 : 0, 1, s, brdf[material].m};
+        const lrcs_brdf own = {plan->glint == LRCSI_TERM_OMITTED ? 0 : brdf[material].A,
+                               plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
+                               brdf[material].m};
+        double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
+        if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
+            const lrcsi_curve_terms *c = &run->curve_terms[f];
+            const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
+                                            -0.5 * c->diffuse_log};
+            response_sum(to, 1, &at);
+        } else if (fraction > 0) {
+            response_patches found = patches_find(view, plan, &own, &unit, f, patches);
+            lrcsi_unit_response at = facet_response(&own, &unit, u, &found);
+            response_sum(to, weight, &at);
+            if (run->moment && run->corrected[f]) {
+                at = correction_response(run, &own, &unit, f, &found);
+                response_sum(to, weight / fraction, &at);
+            }
+        }
+    }
+    for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) { /* 2. clear shapes */
+        if (clear->part[i]) {
+            uint32_t material = scene->facet_material[scene->part[i].first_facet];
+            lrcsi_unit_response at = lrcsi_shape_response_make(view, i, &brdf[material]);
+            response_sum(&response[material], 1, &at);
+        }
+    }
+    for (uint32_t i = 0; i < scene->material_count; i++) { /* 3. terms that the plan leaves out */
+        if (plan->glint == LRCSI_TERM_OMITTED) {
+            response[i].glint = response[i].glint_s = (lrcsi_sum){0, 0};
+        }
+        if (plan->diffuse == LRCSI_TERM_OMITTED) {
+            response[i].diffuse = response[i].diffuse_m = (lrcsi_sum){0, 0};
+        }
+    }
+}

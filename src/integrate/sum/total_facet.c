@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/* The sum of Eq. 2, facet by facet: those near grazing incidence, in the bright lobe of a narrow
+   glint, with curved normals, or on curved walls. Incidence is in double-double (view/view.h). Also
+   the tessellation error of a facet, and what facets add to counts and records. */
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/length.h"
+#include "base/range.h"
+#include "integrate/sum/facet_terms.h"
+#include "integrate/sum/total_run.h"
+#include "integrate/wall/tessellation.h"
+
+/* Counts a facet that is hidden or partly visible. If the area of a clipped facet cannot be
+   distinguished from 0, the facet counts as hidden; if not from the projected area, as visible. */
+void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible_area *visible)
+{
+    int below = visible->area < projected;
+    int clipped = visible->error_estimate == 0 && visible->high - visible->low < projected;
+    int partly = visible->area > 0 && below &&
+                 !(clipped && (visible->low <= 0 || visible->high >= projected));
+    total->partial += partly ? 1 : 0;
+    total->hidden += visible->area == 0 || (below && visible->low <= 0 && !partly) ? 1 : 0;
+}
+
+void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf)
+{
+    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
+    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
+}
+
+/* Adds the errors due to an uncertain visible area. Given: sigma per unit of visible area. */
+void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
+                                const lrcsi_visible_area *visible)
+{
+    double area_err = lrcsi_max(visible->area - visible->low, visible->high - visible->area);
+    sums->visibility += per_area * area_err;
+    sums->error_estimate =
+        lrcsi_length_flat(sums->error_estimate, per_area * visible->error_estimate);
+    sums->bias += per_area * visible->bias;
+}
+
+void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+{
+    if (run->details.records) {
+        const lrcs_prepared *p = run->view->prepared;
+        run->details.records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
+        run->details.records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+    }
+}
+
+/* Adds a facet that reflects towards the laser and may be visible:
+   1. its incidence and visible area;
+   2. with curved normals, the integral over them;
+   3. on a wall whose visible pieces are known, the integral over these;
+   4. otherwise 4 pi S f times the visible fraction, with the rounding error;
+   5. the error of the visible area. */
+void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
+{
+    lrcsi_total_sums *sums = &run->sums;
+    lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
+    lrcsi_visible_area visible =
+        lrcsi_areas_of(run->areas, run->view, run->plan, facet, &incidence);
+    lrcs_brdf brdf =
+        lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(run->view->prepared, facet));
+    lrcsi_total_note_terms(sums, &brdf);
+    lrcsi_sum_add(&sums->projected, visible.area);
+    lrcsi_total_count(&run->total, incidence.projected, &visible);
+    if (run->curve_terms && lrcsi_curve_applies(run->view, facet)) {
+        const lrcsi_curve_terms *curve_terms = &run->curve_terms[facet];
+        lrcsi_sum_add(&sums->glint, curve_terms->glint);
+        lrcsi_sum_add(&sums->diffuse, curve_terms->diffuse);
+        sums->visibility += curve_terms->visibility;
+        sums->rounding += curve_terms->rounding + LRCSI_FACET_UNDERFLOW;
+        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curve_terms->error_estimate);
+        sums->cubature_estimate += curve_terms->estimate;
+        lrcsi_total_record(run, facet, curve_terms->glint, curve_terms->diffuse);
+        return;
+    }
+    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
+    if (wall) {
+        double glint = LRCS_FOUR_PI * wall->glint;
+        double diffuse = LRCS_FOUR_PI * wall->diffuse;
+        lrcsi_sum_add(&sums->glint, glint);
+        lrcsi_sum_add(&sums->diffuse, diffuse);
+        sums->visibility += LRCS_FOUR_PI * wall->visibility;
+        sums->rounding += LRCS_FOUR_PI * wall->rounding +
+                          8 * LRCSI_U * (fabs(glint) + fabs(diffuse)) + LRCSI_FACET_UNDERFLOW;
+        lrcsi_total_record(run, facet, glint, diffuse);
+        return;
+    }
+    lrcsi_facet_terms terms =
+        lrcsi_facet_terms_make(run->view, run->plan, facet, &incidence, &visible, &run->patches);
+    lrcsi_sum_add(&sums->glint, terms.glint);
+    lrcsi_sum_add(&sums->diffuse, terms.diffuse);
+    sums->rounding += terms.rounding;
+    lrcsi_total_record(run, facet, terms.glint, terms.diffuse);
+    if (visible.low < visible.high) {
+        lrcsi_total_add_area_error(sums, terms.per_area, &visible);
+    }
+}
+
+/* Counts a facet of a clear shape, of which nothing hides the front. Its sigma is part of the
+   closed form; so is its projected area if the shape is solid. */
+void lrcsi_total_add_clear(lrcsi_total_run *run, uint32_t facet)
+{
+    const lrcs_prepared *p = run->view->prepared;
+    int front = run->view->facing[facet] > 0;
+    if (front && !p->scene->part[p->scene->facet_part[facet]].solid) {
+        lrcsi_sum_add(&run->sums.projected, lrcsi_view_projected(run->view, facet));
+    }
+    run->total.hidden += front ? 0 : 1;
+}
+
+/* Adds a facet of any kind, by its exact facing. */
+void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
+{
+    int reflects = lrcsi_view_reflects(run->view, facet);
+    int visible =
+        run->view->facing[facet] != 0 && lrcsi_areas_is_summed(run->areas, run->view, facet);
+    if (reflects && lrcsi_total_in_clear_shape(run, facet)) {
+        lrcsi_total_add_clear(run, facet);
+    } else if (reflects && visible) {
+        lrcsi_total_add_reflecting(run, facet);
+    } else if (reflects) {
+        run->total.hidden++;
+    } else if (visible) { /* a back side that does not reflect */
+        double area = run->areas->visible ? lrcsi_areas_value(run->areas, run->view, facet)
+                                          : lrcsi_view_projected(run->view, facet);
+        lrcsi_sum_add(&run->sums.projected, area);
+        lrcsi_sum_add(&run->sums.back_side, area);
+        run->total.back_sides += area > 0 ? 1 : 0;
+    }
+}
+
+/* Divides an error of a facet among the parts that cause it, in proportion to their reaches: the
+   parts whose shadows may end on the facet and, with `own`, its own part. */
+static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error, int own)
+{
+    const lrcs_scene *scene = run->view->prepared->scene;
+    lrcsi_part_set set = run->band ? run->band->parts[facet] : 0;
+    double reach = 0;
+    if (own) {
+        set |= lrcsi_part_set_of(scene->facet_part[facet]);
+    }
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].bounds.reach : 0;
+    }
+    for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
+        run->details.part_error[i] +=
+            (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].bounds.reach / reach) : 0;
+    }
+}
+
+/* Adds the tessellation error of a facet on a wall whose visible pieces are known: what other parts
+   cause, and what its own part causes. */
+static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_terms *wall)
+{
+    run->sums.above += LRCS_FOUR_PI * (wall->above + wall->own);
+    run->sums.below += LRCS_FOUR_PI * (wall->below + wall->own);
+    if (run->details.part_error) {
+        uint32_t own = run->view->prepared->scene->facet_part[facet];
+        run->details.part_error[own] += LRCS_FOUR_PI * wall->own;
+        add_part_errors(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below), 0);
+    }
+}
+
+/* Adds what a facet's sigma is corrected by, because F varies over its patch. Its rounding error is
+   part of the tessellation error. */
+static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+{
+    lrcsi_sum_add(&run->sums.glint, LRCS_FOUR_PI * glint);
+    lrcsi_sum_add(&run->sums.diffuse, LRCS_FOUR_PI * diffuse);
+    run->details.corrected[facet] = 1;
+    if (run->details.records) {
+        const lrcs_prepared *p = run->view->prepared;
+        run->details.records[facet].sigma_m2 +=
+            lrcsi_prepared_area(p, LRCS_FOUR_PI * (glint + diffuse));
+        run->details.records[facet].sigma_glint_m2 += lrcsi_prepared_area(p, LRCS_FOUR_PI * glint);
+    }
+}
+
+/* Adds the tessellation error of a facet: the error of replacing curved shapes by facets, and the
+   correction that goes with it. A facet with curved normals adds only the effect of differences in
+   visibility within the proximity band; clear shapes have no such error. */
+void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
+                                  const lrcsi_incidence *incidence)
+{
+    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
+    if (lrcsi_total_in_clear_shape(run, facet)) {
+        return;
+    }
+    if (wall) {
+        add_round_errors(run, facet, wall);
+        return;
+    }
+    if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {
+        const lrcsi_tessellation_input in = {run->view, run->plan, run->areas->visible,
+                                             run->areas->moment, run->band};
+        lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
+        if (error.corrected) {
+            add_correction(run, facet, error.glint, error.diffuse);
+        }
+        run->sums.above += LRCS_FOUR_PI * error.above;
+        run->sums.below += LRCS_FOUR_PI * error.below;
+        if (run->details.part_error && error.above + error.below > 0) {
+            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below), 1);
+        }
+    } else if (run->band) {
+        run->sums.above += run->band->gain[facet] * run->curve_terms[facet].upper_bound;
+        run->sums.below += run->band->loss[facet] * run->curve_terms[facet].upper_bound;
+    }
+}

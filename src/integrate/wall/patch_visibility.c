@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* Classifies patches by what is known about their visibility. It does not decide what that costs
+   (integrate/wall/wall_error.c, tessellation.c). */
+#include "integrate/wall/patch_visibility.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+
+/* A facet of which at most this fraction can be visible counts as hidden; what may be visible of it
+   is then part of its error. */
+#define HIDDEN_FRACTION 0x1p-20
+
+/* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always
+   hidden, even if rounding has turned a facet of it towards the laser. */
+static int back_reflects(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_part *part = lrcsi_patch_part(view->prepared, facet);
+    return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
+           !(part->bounds.reach > 0 && part->solid);
+}
+
+int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
+                         const lrcsi_proximity_band *band)
+{
+    if (band && band->hidden[band->region[facet]]) {
+        return LRCSI_PATCH_HIDDEN;
+    }
+    if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
+        return LRCSI_PATCH_AWAY;
+    }
+    if (!band || (band->mismatch[facet] == 0 && !band->classification->undecided[facet] &&
+                  visible[facet].low > 0)) {
+        return LRCSI_PATCH_VISIBLE;
+    }
+    return visible[facet].high > HIDDEN_FRACTION * lrcsi_view_projected(view, facet)
+               ? LRCSI_PATCH_PARTIAL
+               : LRCSI_PATCH_HIDDEN;
+}
+
+int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
+                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band)
+{
+    uint32_t partner = lrcsi_patch_partner(view->prepared, facet);
+    return view->prepared->skip[partner] ? LRCSI_PATCH_HIDDEN
+                                         : lrcsi_patch_state_of(view, partner, visible, band);
+}
+
+lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
+                                               const lrcsi_visible_area *visible,
+                                               const lrcsi_proximity_band *band)
+{
+    double error = incidence->error + 8 * LRCSI_U;
+    lrcsi_patch_fractions f = {0, 0, 0, 1};
+    if (!band) {
+        return f;
+    }
+    if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
+        f.hidden = 1 + error - visible[facet].low / incidence->projected;
+    }
+    f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
+    double visible_most = visible[facet].high / incidence->projected * (1 + 2 * error);
+    f.gain = fmin(band->gain[facet], f.hidden);
+    f.loss = fmin(band->loss[facet], visible_most);
+    f.visible = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
+    return f;
+}
+
+double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
+                                   const lrcsi_visible_area *visible,
+                                   const lrcsi_proximity_band *band)
+{
+    return !band || band->hidden[band->region[facet]] || !(visible[facet].high > 0)
+               ? 0
+               : fmin(1, visible[facet].high / incidence->projected * (1 + 2 * incidence->error));
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* What is known about the visibility of a facet and of the patch of the true surface that it
+   represents: a state, and bounds on fractions. The proofs that use them: integrate/wall/tessellation.c.
+   Given to each function: the visible areas of all facets; the proximity band, or NULL if every
+   front is entirely visible or the bounds of the visible area include what could be hidden. */
+#ifndef LRCSI_PATCH_VISIBILITY_H
+#define LRCSI_PATCH_VISIBILITY_H
+
+#include "integrate/wall/patch.h"
+#include "visibility/proximity/proximity_band.h"
+#include "visibility/visible_area.h"
+
+enum lrcsi_patch_state {
+    LRCSI_PATCH_AWAY,    /* no side of the facet that reflects faces the laser */
+    LRCSI_PATCH_VISIBLE, /* facet and patch are entirely visible */
+    LRCSI_PATCH_HIDDEN,  /* the facet is hidden, except for a tiny fraction of it */
+    LRCSI_PATCH_PARTIAL  /* none of these */
+};
+
+/* Upper bounds of fractions of a facet: */
+typedef struct lrcsi_patch_fractions {
+    double hidden;     /* hidden, or not known to be visible, by facets */
+    double gain, loss; /* as in lrcsi_proximity_band; only what is hidden may be gained, and only
+                          what is visible lost */
+    double visible;    /* visible on the true surface */
+} lrcsi_patch_fractions;
+
+/* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
+   as hidden if it is skipped. */
+int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
+                         const lrcsi_proximity_band *band);
+int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
+                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band);
+
+/* Is something of a patch in this state visible? */
+static inline int lrcsi_patch_is_visible(int state)
+{
+    return state == LRCSI_PATCH_VISIBLE || state == LRCSI_PATCH_PARTIAL;
+}
+
+/* The fractions of a facet of which a side that reflects faces the laser. */
+lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
+                                               const lrcsi_visible_area *visible,
+                                               const lrcsi_proximity_band *band);
+
+/* An upper bound of the visible fraction of a facet that counts as hidden. */
+double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
+                                   const lrcsi_visible_area *visible,
+                                   const lrcsi_proximity_band *band);
+
+#endif

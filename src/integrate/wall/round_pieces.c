@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: MIT */
+/* Integrates over visible pieces, and over margins at the borders of sets of sectors. Used are the
+   sectors of which a facet is partly visible, if the surface above their facets faces the laser
+   everywhere, and G is smooth enough for the rules there. */
+#include "integrate/wall/round_pieces.h"
+
+#include <math.h>
+
+#include "base/length.h"
+#include "base/range.h"
+#include "base/vec3.h"
+#include "base/work.h"
+#include "integrate/wall/mean_rule.h"
+#include "integrate/wall/patch.h"
+#include "integrate/wall/patch_visibility.h"
+#include "integrate/wall/round_sector.h"
+#include "optics/reflect.h"
+
+/* The remainder that a rule should have, relative to G: this times the tolerance, but within these
+   limits. */
+#define RULE_FRACTION  0x1p-7
+#define REMAINDER_LOW  0x1p-40
+#define REMAINDER_HIGH 0x1p-12
+/* A sector is not used if the remainder is larger than this, relative to G. */
+#define REMAINDER_MAX 0x1p-10
+/* A triangle is divided into at most the square of this number. */
+#define DIVISIONS_MAX 8
+/* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
+   Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
+   inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within 12 + 2 (1 + 8) =
+   30 reaches of the facet (visibility/proximity/proximity_band.h, 11). */
+#define MAX_REACHES 12.0
+
+typedef struct pieces_job {
+    const lrcsi_view *view;
+    const lrcsi_plan *plan;
+    const lrcsi_proximity_band *band;
+    const lrcsi_visible_area *visible;
+    lrcsi_round_wall wall; /* of the current part */
+    double target;         /* the relative remainder that rules should have */
+} pieces_job;
+
+/* --- triangles -------------------------------------------------------------------------------- */
+
+/* The rule over triangles: coordinates r, s in 0 .. 1 of a Gauss-Legendre rule of n points each;
+   the point c + r ((a - c) + s (b - a)) has the weight r. Exact up to degree 2 n - 2. */
+typedef struct triangle_rule {
+    const lrcsi_mean_rule *rule;
+    double remainder; /* of G, per unit of area */
+} triangle_rule;
+
+/* The rule with the fewest points whose remainder is at most `target`, or else the best one. Given:
+   the triangle's centre, and the largest distance of its points from there. */
+static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_round_point *centre,
+                                          double radius, double target)
+{
+    double best[LRCSI_MEAN_RULES];
+    for (int n = 0; n < LRCSI_MEAN_RULES; n++) {
+        best[n] = HUGE_VAL;
+    }
+    for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
+        double bound = lrcsi_round_bound(&job->wall.surface, &job->wall.brdf, centre,
+                                         lrcsi_round_ratios[i] * radius);
+        double q = 1 / lrcsi_round_ratios[i];
+        if (!(bound < HUGE_VAL)) {
+            break;
+        }
+        bound *= 2 * q / (1 - q);
+        for (int n = 0, degree = 0; n < LRCSI_MEAN_RULES; n++) {
+            for (; degree < 2 * lrcsi_mean_rules[n].points - 2; degree++) {
+                bound *= q;
+            }
+            best[n] = lrcsi_min(best[n], bound);
+        }
+    }
+    int n = 0;
+    while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
+        n++;
+    }
+    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_ROUND_UPWARD};
+}
+
+/* Adds the integral of G over the triangle `corner`, of the given area, to a sum. The weight of a
+   point and the products with it have at most 16 roundings; that of the point's position is far
+   below the position_err that at.error includes (integrate/wall/round_surface.c). */
+static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
+                         const double corner[3][2], double area, const lrcsi_mean_rule *rule,
+                         lrcsi_round_sum *sum)
+{
+    double x[LRCSI_MEAN_RULE_POINTS];
+    double weight[LRCSI_MEAN_RULE_POINTS];
+    int count = lrcsi_mean_rule_points(rule, x, weight);
+    for (int i = 0; i < count; i++) {
+        double r = 0.5 * (1 + x[i]);
+        for (int j = 0; j < count; j++) {
+            double s = 0.5 * (1 + x[j]);
+            double v[2];
+            for (int k = 0; k < 2; k++) {
+                v[k] = corner[0][k] - centre->x[k] +
+                       r * ((corner[1][k] - corner[0][k]) + s * (corner[2][k] - corner[1][k]));
+            }
+            lrcsi_round_value at =
+                lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, centre, v);
+            double part = area * (2 * r * weight[i] * weight[j]);
+            sum->glint += part * at.glint;
+            sum->diffuse += part * at.diffuse;
+            sum->rounding += part * (at.error + 32 * LRCSI_U * (at.glint + at.diffuse));
+        }
+    }
+}
+
+/* The wall's point above the centre of a triangle, and the largest distance of the triangle's
+   points from there. Returns 0 if there is none. */
+static int triangle_centre(const pieces_job *job, const double corner[3][2],
+                           lrcsi_round_point *centre, double *radius)
+{
+    double at[2];
+    for (int k = 0; k < 2; k++) {
+        at[k] = corner[0][k] + ((corner[1][k] - corner[0][k]) + (corner[2][k] - corner[0][k])) / 3;
+    }
+    *radius = 0;
+    for (int i = 0; i < 3; i++) {
+        *radius = lrcsi_max(*radius, lrcsi_length_flat(corner[i][0] - at[0], corner[i][1] - at[1]));
+    }
+    *radius *= LRCSI_ROUND_UPWARD;
+    return lrcsi_round_point_make(&job->wall.surface, at, centre);
+}
+
+/* Corner of sub-triangle number i of n x n. */
+static void triangle_part(const double corner[3][2], int n, int i, double part[3][2])
+{
+    int row = 0;
+    while ((row + 1) * (row + 1) <= i) {
+        row++;
+    }
+    int at = i - row * row; /* 0 .. 2 row: even ones have the same orientation */
+    int a = at / 2;
+    int odd = at % 2;
+    const int node[2][3][2] = {{{row, a}, {row + 1, a}, {row + 1, a + 1}},
+                               {{row, a}, {row + 1, a + 1}, {row, a + 1}}};
+    for (int k = 0; k < 3; k++) {
+        double r = (double)node[odd][k][0] / n;
+        double s = (double)node[odd][k][1] / n;
+        for (int j = 0; j < 2; j++) {
+            part[k][j] = corner[0][j] + r * (corner[1][j] - corner[0][j]) +
+                         s * (corner[2][j] - corner[1][j]);
+        }
+    }
+}
+
+/* Adds the integral over a triangle with a counter-clockwise area, divided if that is necessary for
+   a small remainder. Returns 0 if the remainder is too large, or the surface not known. */
+static int triangle_integrate(const pieces_job *job, const double corner[3][2], double area,
+                              lrcsi_round_sum *sum)
+{
+    for (int n = 1; n <= DIVISIONS_MAX; n *= 2) {
+        lrcsi_round_sum all = {0, 0, 0, 0};
+        int fine = 1;
+        for (int i = 0; i < n * n && fine; i++) {
+            double part[3][2];
+            lrcsi_round_point point;
+            double radius;
+            triangle_part(corner, n, i, part);
+            if (!triangle_centre(job, (const double(*)[2])part, &point, &radius)) {
+                return 0;
+            }
+            const double here[2] = {0, 0};
+            lrcsi_round_value at =
+                lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, &point, here);
+            double scale = at.glint + at.diffuse;
+            triangle_rule rule = triangle_rule_choose(job, &point, radius, job->target * scale);
+            fine = rule.remainder <= (n < DIVISIONS_MAX ? 4 * job->target : REMAINDER_MAX) * scale;
+            if (fine) {
+                triangle_add(job, &point, (const double(*)[2])part, area / (n * n), rule.rule,
+                             &all);
+                all.remainder += area / (n * n) * rule.remainder;
+            }
+        }
+        if (fine && isfinite(all.glint + all.diffuse + all.rounding + all.remainder)) {
+            sum->glint += all.glint;
+            sum->diffuse += all.diffuse;
+            sum->rounding += all.rounding;
+            sum->remainder += all.remainder;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* A bound on G above a facet; infinite if the surface is not known, or too far away. Because the
+   wall is convex, its height along d is a concave function on the view plane: it lies between its
+   linear interpolation over the corners, and its tangent plane at the centre. So its distance from
+   the facet is at most the largest distance of either from the facet's corners. The normals above a
+   facet turn from its own by at most `turn` on its own patch. On a patch next to it they turn by at
+   most 2 `turn` from those on the common border, so by 3 `turn` from its own. */
+static double facet_bound(const pieces_job *job, uint32_t facet)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const lrcsi_round_surface *surface = &job->wall.surface;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    double at[3][2];
+    double apart = 0;
+    const lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
+    double radius;
+    lrcsi_round_point centre;
+    for (int i = 0; i < 3; i++) {
+        at[i][0] = job->view->point[corner[i]].x[0];
+        at[i][1] = job->view->point[corner[i]].x[1];
+    }
+    if (!triangle_centre(job, (const double(*)[2])at, &centre, &radius)) {
+        return HUGE_VAL;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double z = job->view->point[corner[i]].x[2];
+        lrcsi_round_point point;
+        if (!lrcsi_round_point_make(surface, at[i], &point)) {
+            return HUGE_VAL;
+        }
+        double slope = lrcsi_vec3_dot(centre.g, surface->axis[0]) * (at[i][0] - centre.x[0]) +
+                       lrcsi_vec3_dot(centre.g, surface->axis[1]) * (at[i][1] - centre.x[1]);
+        apart = lrcsi_max(apart, fabs(lrcsi_round_height(surface, &point) - z));
+        apart = lrcsi_max(apart, fabs(lrcsi_round_height(surface, &centre) - slope / centre.s - z));
+    }
+    lrcsi_reflection bound = lrcsi_reflect_bound(&job->wall.brdf, atan(sqrt(incidence.tan2)),
+                                                 3 * surface->part->bounds.patch.turn);
+    return apart < MAX_REACHES * p->proximity.reach[p->scene->facet_part[facet]]
+               ? (bound.glint + bound.diffuse) * LRCSI_ROUND_UPWARD
+               : HUGE_VAL;
+}
+
+/* Integrates over the visible pieces of a facet. Returns 0 if that is not possible. */
+static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t facet,
+                           lrcsi_round_terms *terms)
+{
+    const lrcsi_view *view = job->view;
+    const lrcsi_target *target = &o->single.target;
+    double projected = lrcsi_view_projected(view, facet);
+    double bound = facet_bound(job, facet);
+    lrcsi_round_sum sum = {0, 0, 0, 0};
+    double area_err = 0;
+    int known = 1;
+    if (!(bound < HUGE_VAL)) {
+        return 0;
+    }
+    lrcsi_occlude_open(o, facet);
+    while (lrcsi_occlude_next(o)) {
+        const lrcsi_clip_polygon *polygon = &o->single.piece;
+        double origin[3];
+        lrcsi_view_coordinates(view, target->origin, origin);
+        for (uint32_t i = 2; i < polygon->count && known; i++) {
+            double area = lrcsi_clip_fan_area(polygon->corner[0], polygon->corner[i - 1],
+                                              polygon->corner[i], &area_err);
+            double corner[3][2];
+            for (int k = 0; k < 2; k++) {
+                corner[0][k] = origin[k] + polygon->corner[0][k];
+                corner[1][k] = origin[k] + polygon->corner[i - 1][k];
+                corner[2][k] = origin[k] + polygon->corner[i][k];
+            }
+            known =
+                !target->needle &&
+                (!(area > 0) || triangle_integrate(job, (const double(*)[2])corner, area, &sum));
+        }
+    }
+    area_err += lrcsi_occlude_corner_err(target) + (o->undecided ? o->single.piece_err : 0);
+    lrcsi_visible_area area = lrcsi_occlude_close(o);
+    double gain = lrcsi_min(job->band->gain_aligned[facet] * projected, projected - area.low);
+    double loss = lrcsi_min(job->band->loss_aligned[facet] * projected, area.high);
+    *terms = (lrcsi_round_terms){.known = 1,
+                                 .glint = sum.glint,
+                                 .diffuse = sum.diffuse,
+                                 .rounding = sum.rounding,
+                                 .visibility =
+                                     bound * (area.high - area.low + area_err) * LRCSI_ROUND_UPWARD,
+                                 .above = bound * lrcsi_max(0, gain) * LRCSI_ROUND_UPWARD,
+                                 .below = bound * lrcsi_max(0, loss) * LRCSI_ROUND_UPWARD,
+                                 .own = sum.remainder};
+    return known;
+}
+
+/* Is it uncertain what is visible of a facet or of its patch? */
+static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
+{
+    const lrcsi_proximity_band *band = job->band;
+    int state = lrcsi_patch_state_of(job->view, facet, job->visible, band);
+    return state == LRCSI_PATCH_PARTIAL ||
+           (state == LRCSI_PATCH_HIDDEN && band->mismatch[facet] > 0 &&
+            !band->hidden[band->region[facet]]);
+}
+
+/* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of
+   facets of such walls that face the laser. */
+static int facet_is_eligible(const pieces_job *job, uint32_t facet)
+{
+    return job->band->gain_aligned[facet] >= 0 && lrcsi_patch_exists(job->view->prepared, facet);
+}
+
+/* May a sector be used, apart from what the integrals need? */
+static int sector_is_candidate(const pieces_job *job, const lrcsi_round_sector *sector)
+{
+    int uncertain = 0;
+    for (int i = 0; i < sector->facets; i++) {
+        if (!facet_is_eligible(job, sector->facet[i])) {
+            return 0;
+        }
+        uncertain |= facet_is_uncertain(job, sector->facet[i]);
+    }
+    return uncertain;
+}
+
+/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. A query at a
+   point of the facet decides, so close to the middle of the side that what holds for the side holds
+   for it. */
+static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrcsi_round_side *side,
+                      lrcsi_meter *meter)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t f = side->facet;
+    const int k = side->corner;
+    const double *a = lrcsi_prepared_corner(p, f, k);
+    const double *b = lrcsi_prepared_corner(p, f, (k + 1) % 3);
+    const double *c = lrcsi_prepared_corner(p, f, (k + 2) % 3);
+    const double from =
+        lrcsi_min(0.25, p->proximity.reach[job->wall.part] / lrcsi_length_longest_side(a, b, c));
+    double point[3];
+    if (!((job->band->free_sides[f] >> k) & 1)) {
+        return -1;
+    }
+    for (int i = 0; i < 3; i++) {
+        double middle = 0.5 * (a[i] + b[i]);
+        point[i] = middle + from * (c[i] - middle);
+    }
+    int answer = lrcsi_query_point(facets, f, point, meter);
+    return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : -1;
+}
+
+/* Adds the margins at the border of the set to a facet of a sector: one of which something is
+   visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
+static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
+                               const lrcsi_round_sector *sector, lrcsi_meter *meter,
+                               lrcsi_round_terms *terms)
+{
+    const double reach = job->view->prepared->proximity.reach[job->wall.part];
+    const uint32_t to =
+        job->visible[sector->facet[0]].high > 0 ? sector->facet[0] : sector->facet[1];
+    for (int i = 0; i < sector->sides; i++) {
+        const lrcsi_round_side *side = &sector->side[i];
+        lrcsi_round_margin margin;
+        if (side->neighbour != LRCS_NONE && terms[side->neighbour].known) {
+            continue;
+        }
+        int state = side_state(job, facets, side, meter);
+        if (state == 0) {
+            continue;
+        }
+        (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* known, or it were not used */
+        if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
+            terms[to].glint += margin.sum.glint;
+            terms[to].diffuse += margin.sum.diffuse;
+            terms[to].rounding += margin.sum.rounding;
+            terms[to].own += margin.sum.remainder;
+        } else {
+            terms[to].own += margin.largest;
+        }
+    }
+}
+
+/* Are all margins of a sector known? */
+static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *sector)
+{
+    int known = 1;
+    for (int i = 0; i < sector->sides && known; i++) {
+        lrcsi_round_margin margin;
+        known = lrcsi_round_margin_make(&job->wall, &sector->side[i], &margin);
+    }
+    return known;
+}
+
+/* Takes the wall that a facet is on. */
+static void job_take_wall(pieces_job *job, uint32_t facet)
+{
+    uint32_t part = job->view->prepared->scene->facet_part[facet];
+    if (!job->wall.view || job->wall.part != part) {
+        job->wall = lrcsi_round_wall_make(job->view, job->plan, part);
+    }
+}
+
+/* 1. Which sectors: all of whose integrals and margins are known; the integrals over their pieces.
+   2. The margins at the border of the set. */
+void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
+                             const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
+                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms)
+{
+    const lrcsi_view *view = classification->view;
+    const uint32_t count = view->prepared->scene->facet_count;
+    const size_t mark = work->used;
+    pieces_job job = {.view = view, .plan = plan, .band = band, .visible = visible};
+    lrcsi_occlusion *o = NULL;
+    lrcsi_round_sector sector;
+    job.target =
+        lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
+    for (uint32_t f = 0; f < count; f++) {
+        terms[f].known = 0;
+    }
+    for (uint32_t f = 0; f < count && plan->patches; f++) { /* 1 */
+        if (!facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
+            continue;
+        }
+        job_take_wall(&job, f);
+        if ((job.wall.brdf.A > 0 && !(job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN)) ||
+            !lrcsi_round_sector_make(&job.wall, f, &sector) ||
+            (f != sector.facet[0] && facet_is_uncertain(&job, sector.facet[0])) || /* tried */
+            !sector_is_candidate(&job, &sector) || !sector_has_margins(&job, &sector)) {
+            continue;
+        }
+        if (!o && lrcsi_occlude_make(classification, meter, work, &o) != LRCS_OK) {
+            return;
+        }
+        int known = 1;
+        for (int i = 0; i < sector.facets && known; i++) {
+            known = facet_integrate(&job, o, sector.facet[i], &terms[sector.facet[i]]);
+        }
+        for (int i = 0; i < sector.facets; i++) {
+            terms[sector.facet[i]].known = known;
+        }
+    }
+    for (uint32_t f = 0; f < count && o; f++) { /* 2 */
+        if (terms[f].known) {
+            job_take_wall(&job, f);
+            if (lrcsi_round_sector_make(&job.wall, f, &sector) && sector.facet[0] == f) {
+                sector_add_margins(&job, &o->facets, &sector, meter, terms);
+            }
+        }
+    }
+    work->used = mark;
+    for (uint32_t f = 0; f < count && meter->spent; f++) {
+        terms[f].known = 0;
+    }
+}

@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: MIT */
+/* Finds the sides of sectors, and integrates over their margins: by Gauss-Legendre rules along the
+   side and across it, of which the remainders are proved (integrate/wall/mean_rule.h). */
+#include "integrate/wall/round_sector.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/length.h"
+#include "base/range.h"
+#include "base/vec3.h"
+#include "integrate/wall/mean_rule.h"
+#include "integrate/wall/patch.h"
+
+/* A margin is divided into at most so many parts. Its remainder should be this small, compared with
+   a bound on its integral. */
+#define MARGIN_PARTS_MAX 8
+/* The least cosine of the incidence angle in the middle of a part. */
+#define MIN_COSINE    0.16
+#define MARGIN_TARGET 1e-6
+
+const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
+
+lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                       uint32_t part)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *placed = &p->scene->part[part];
+    return (lrcsi_round_wall){
+        .view = view,
+        .part = part,
+        .surface = lrcsi_round_surface_make(view, part),
+        .body = lrcsi_revolution_make(&placed->shape, &placed->divisions),
+        .unit = ldexp(placed->unit, -p->exponent),
+        .brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, placed->first_facet))};
+}
+
+/* --- margins ---------------------------------------------------------------------------------- */
+
+/* A point of the arc, and its derivative with respect to t. On the meridian of a sphere or dome the
+   polar angle is linear in t, on that of a paraboloid the radius. */
+static void side_arc(const lrcsi_round_wall *wall, const lrcsi_round_side *side, double t,
+                     double x[2], double dx[2])
+{
+    const lrcsi_round_surface *s = &wall->surface;
+    double rho = side->rho;
+    double z = side->z;
+    double phi = side->azimuth;
+    double d_rho = 0;
+    double dz = 0;
+    double d_phi = 0;
+    if (side->is_row) {
+        phi += t * side->half;
+        d_phi = side->half;
+    } else if (s->alpha == 0) {
+        rho += t * side->half;
+        d_rho = side->half;
+        z = -(rho * rho + s->gamma) / (2 * s->beta);
+        dz = -rho * d_rho / s->beta;
+    } else {
+        double radius = sqrt(-s->gamma);
+        double polar = side->polar + t * side->half;
+        rho = radius * sin(polar);
+        z = radius * cos(polar);
+        d_rho = z * side->half;
+        dz = -rho * side->half;
+    }
+    const double X[3] = {rho * cos(phi), rho * sin(phi), z};
+    const double dX[3] = {d_rho * cos(phi) - rho * sin(phi) * d_phi,
+                          d_rho * sin(phi) + rho * cos(phi) * d_phi, dz};
+    for (int k = 0; k < 2; k++) {
+        x[k] = s->view[k] + lrcsi_vec3_dot(X, s->axis[k]);
+        dx[k] = lrcsi_vec3_dot(dX, s->axis[k]);
+    }
+}
+
+/* Bounds, for complex |t - middle| <= r, on how far the arc and its derivative are from their
+   linear functions about the middle. On a circle these are radius (e^x - 1 - x) and radius h (e^x -
+   1) with x = h r, at most x^2 / 2 e^x and x e^x; on the parabola the second derivative is
+   constant. */
+static double side_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *side, double r,
+                        double *slope)
+{
+    const lrcsi_round_surface *s = &wall->surface;
+    double h = fabs(side->half);
+    if (!side->is_row && s->alpha == 0) {
+        double second = h * h / s->beta;
+        *slope = second * r * LRCSI_ROUND_UPWARD;
+        return 0.5 * second * r * r * LRCSI_ROUND_UPWARD;
+    }
+    double radius = side->is_row ? side->rho : sqrt(-s->gamma);
+    double grown = radius * lrcsi_exp(h * r) * LRCSI_ROUND_UPWARD;
+    *slope = h * h * r * grown;
+    return 0.5 * (h * r) * (h * r) * grown;
+}
+
+/* A part of a margin, for t in middle - half .. middle + half: its chord c + t' step, t' in -1 ..
+   1, how far the arc is from it and the difference of their derivatives in the middle. */
+typedef struct margin_part {
+    double middle, half;
+    double chord[2], step[2];
+    double apart, turned, length; /* the last is |step| */
+    lrcsi_round_point centre;
+} margin_part;
+
+/* Returns 0 if there is no point of the wall above the middle of its chord. */
+static int margin_part_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                            double middle, double half, margin_part *part)
+{
+    const double turn = side->sign * half;
+    double a[2];
+    double da[2];
+    *part = (margin_part){.middle = middle, .half = half};
+    for (int k = 0; k < 2; k++) {
+        part->chord[k] = side->chord[k] + middle * side->step[k];
+        part->step[k] = half * side->step[k];
+    }
+    side_arc(wall, side, side->sign * middle, a, da);
+    part->apart = lrcsi_length_flat(a[0] - part->chord[0], a[1] - part->chord[1]);
+    part->turned = lrcsi_length_flat(turn * da[0] - part->step[0], turn * da[1] - part->step[1]);
+    part->length = lrcsi_length_flat(part->step[0], part->step[1]);
+    return lrcsi_round_point_make(&wall->surface, part->chord, &part->centre);
+}
+
+/* M for parameters up to r times as far from the middle, and up to `out` times as far from the
+   chord as the arc. *width, *slope: bounds on the distance between arc and chord, and on the
+   difference of their derivatives. */
+static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                           const margin_part *part, double r, double out, double *width,
+                           double *slope)
+{
+    double bend = side_bend(wall, side, r * part->half, slope);
+    *width =
+        (part->apart + part->turned * r + bend) * LRCSI_ROUND_UPWARD + wall->surface.position_err;
+    *slope = (part->turned + *slope * part->half) * LRCSI_ROUND_UPWARD;
+    return lrcsi_round_bound(&wall->surface, &wall->brdf, &part->centre,
+                             r * part->length + out * *width);
+}
+
+/* The remainder of the rules along and across a part of a margin. */
+static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                               const margin_part *part, int along, int across)
+{
+    double error_along = HUGE_VAL; /* complex t, real s */
+    double error_across = HUGE_VAL;
+    double width;
+    double slope;
+    for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
+        double q = 1 / (lrcsi_round_ratios[i] * lrcsi_round_ratios[i]);
+        double m = margin_bound(wall, side, part, lrcsi_round_ratios[i], 1, &width, &slope);
+        m *= (part->length + slope) * width;
+        for (int k = 0; k < along; k++) {
+            m *= q;
+        }
+        error_along = lrcsi_min(error_along, 2 * m / ((2 * along + 1) * (1 - q)));
+        m = margin_bound(wall, side, part, 1, 1 + lrcsi_round_ratios[i], &width, &slope);
+        m *= (part->length + (1 + lrcsi_round_ratios[i]) * slope) * width;
+        for (int k = 0; k < across; k++) {
+            m *= q;
+        }
+        error_across = lrcsi_min(error_across, 2 * m / ((2 * across + 1) * (1 - q)));
+    }
+    return (error_along + error_across) * LRCSI_ROUND_UPWARD;
+}
+
+/* Adds the integral over a part of a margin. */
+static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                       const margin_part *part, const lrcsi_mean_rule *along,
+                       const lrcsi_mean_rule *across, lrcsi_round_sum *sum)
+{
+    double t[LRCSI_MEAN_RULE_POINTS];
+    double s[LRCSI_MEAN_RULE_POINTS];
+    double t_weight[LRCSI_MEAN_RULE_POINTS];
+    double s_weight[LRCSI_MEAN_RULE_POINTS];
+    int count = lrcsi_mean_rule_points(along, t, t_weight);
+    int rows = lrcsi_mean_rule_points(across, s, s_weight);
+    for (int i = 0; i < count; i++) {
+        double a[2];
+        double da[2];
+        side_arc(wall, side, side->sign * (part->middle + t[i] * part->half), a, da);
+        const double chord[2] = {part->chord[0] + t[i] * part->step[0],
+                                 part->chord[1] + t[i] * part->step[1]};
+        const double out[2] = {a[0] - chord[0], a[1] - chord[1]};
+        for (int k = 0; k < rows; k++) {
+            double at = 0.5 * (1 + s[k]);
+            const double v[2] = {chord[0] + at * out[0] - part->centre.x[0],
+                                 chord[1] + at * out[1] - part->centre.x[1]};
+            const double turn = at * side->sign * part->half;
+            const double tangent[2] = {(1 - at) * part->step[0] + turn * da[0],
+                                       (1 - at) * part->step[1] + turn * da[1]};
+            double area =
+                2 * t_weight[i] * s_weight[k] * (out[0] * tangent[1] - out[1] * tangent[0]);
+            lrcsi_round_value value =
+                lrcsi_round_value_make(&wall->surface, &wall->brdf, &part->centre, v);
+            sum->glint += area * value.glint;
+            sum->diffuse += area * value.diffuse;
+            sum->rounding +=
+                fabs(area) * (value.error + 32 * LRCSI_U * (value.glint + value.diffuse));
+        }
+    }
+}
+
+/* The margin is divided until the remainder is small compared with its size.
+
+   Inclination. Where M is finite over a part, w = 1 / cos^2 is there at most 1.5 times its value at
+   the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59 and tan < 8.
+
+   Rounding. The ends of the chord have errors of vertex_err together, points of the arc less than
+   position_err (which exceeds the errors of their sines, cosines and products). So both borders are
+   displaced by at most these, which changes the area, and the size of the area elements, each by at
+   most the length times twice their sum; 8 is twice as much as these together. */
+int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                            lrcsi_round_margin *margin)
+{
+    const lrcsi_mean_rule *along = &lrcsi_mean_rules[LRCSI_MEAN_RULES - 2];
+    const lrcsi_mean_rule *across = &lrcsi_mean_rules[1];
+    const double vertex_err = lrcsi_view_point_err(wall->view->point[side->vertex[0]].x) +
+                              lrcsi_view_point_err(wall->view->point[side->vertex[1]].x);
+    for (int n = 1; n <= MARGIN_PARTS_MAX; n *= 2) {
+        lrcsi_round_sum *sum = &margin->sum;
+        *margin = (lrcsi_round_margin){.width = 0};
+        for (int i = 0; i < n && sum->remainder < HUGE_VAL; i++) {
+            double width = 0;
+            double slope = 0;
+            margin_part part;
+            if (!margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n, &part) ||
+                !(part.centre.s >= MIN_COSINE * part.centre.length)) {
+                return 0;
+            }
+            double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
+            double size = bound * (part.length + slope) * LRCSI_ROUND_UPWARD;
+            margin->largest += 2 * size * width;
+            margin->width = lrcsi_max(margin->width, width);
+            sum->remainder += margin_remainder(wall, side, &part, along->points, across->points);
+            /* the positions of both borders */
+            sum->rounding += 8 * size * (wall->surface.position_err + vertex_err);
+            if (sum->remainder < HUGE_VAL) {
+                margin_add(wall, side, &part, along, across, sum);
+            }
+        }
+        if (sum->remainder <= MARGIN_TARGET * margin->largest &&
+            isfinite(sum->rounding + sum->glint + sum->diffuse + margin->largest)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* --- sectors ---------------------------------------------------------------------------------- */
+
+/* The vertex of the sector's facets that stands for a corner of its patch. */
+static uint32_t corner_vertex(const lrcsi_round_wall *wall, const lrcsi_round_sector *sector,
+                              double rho, double z, double azimuth)
+{
+    const lrcsi_round_surface *s = &wall->surface;
+    const lrcs_scene *scene = wall->view->prepared->scene;
+    const double X[3] = {rho * cos(azimuth), rho * sin(azimuth), z};
+    uint32_t nearest = LRCS_NONE;
+    double least = HUGE_VAL;
+    for (int i = 0; i < 3 * sector->facets; i++) {
+        uint32_t vertex = scene->facet[sector->facet[i / 3]].corner[i % 3];
+        double distance = 0;
+        for (int k = 0; k < 3; k++) {
+            double x = s->view[k] + lrcsi_vec3_dot(X, s->axis[k]) - wall->view->point[vertex].x[k];
+            distance += x * x;
+        }
+        if (distance < least) {
+            least = distance;
+            nearest = vertex;
+        }
+    }
+    return nearest;
+}
+
+/* Finds which facet of the sector has a side, and the facet across it. Returns 0 if there is no
+   such side. */
+static int side_find(const lrcsi_round_wall *wall, const lrcsi_round_sector *sector,
+                     lrcsi_round_side *side)
+{
+    const lrcs_prepared *p = wall->view->prepared;
+    const uint32_t *vertex = side->vertex;
+    for (int i = 0; i < 3 * sector->facets; i++) {
+        uint32_t f = sector->facet[i / 3];
+        uint32_t a = p->scene->facet[f].corner[i % 3];
+        uint32_t b = p->scene->facet[f].corner[(i + 1) % 3];
+        if ((a == vertex[0] && b == vertex[1]) || (a == vertex[1] && b == vertex[0])) {
+            uint32_t other = p->neighbours.facet[f].corner[i % 3];
+            side->neighbour = other < p->scene->facet_count && other != f ? other : LRCS_NONE;
+            side->facet = f;
+            side->corner = i % 3;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The corners of a sector's patch in the order of its border: the row above, and the azimuth after,
+   the first one of the sector. */
+static const int corner_row[4] = {0, 0, 1, 1};
+static const int corner_azimuth[4] = {0, 1, 1, 0};
+
+/* The side of a sector from one of these corners to the next. `at`: the sector's position. */
+static lrcsi_round_side side_make(const lrcsi_round_wall *wall, const lrcsi_wall_patch *at,
+                                  int number)
+{
+    const lrcsi_revolution *body = &wall->body;
+    const double unit = wall->unit;
+    const int is_row = number % 2 == 0;
+    const uint32_t row = at->row + (uint32_t)(number == 2);
+    const double below = lrcsi_revolution_radius(body, at->row) * unit;
+    const double above = lrcsi_revolution_radius(body, at->row + 1) * unit;
+    const double polar[2] = {lrcsi_revolution_polar(body, at->row),
+                             lrcsi_revolution_polar(body, at->row + 1)};
+    lrcsi_round_side side = {.is_row = is_row, .sign = number < 2 ? 1 : -1};
+    if (is_row) {
+        side.rho = lrcsi_revolution_radius(body, row) * unit;
+        side.z = (at->mirrored ? -1 : 1) * lrcsi_revolution_height(body, row) * unit;
+        side.azimuth = (2.0 * at->sector + 1.0) * body->half;
+        side.half = body->half;
+    } else {
+        side.rho = 0.5 * (below + above);
+        side.azimuth = 2.0 * ((double)at->sector + (number == 1)) * body->half;
+        side.polar = 0.5 * (polar[0] + polar[1]);
+        side.half = 0.5 * (wall->surface.alpha == 0 ? above - below : polar[1] - polar[0]);
+        if (at->mirrored) { /* the other half of a sphere */
+            side.polar = LRCS_PI - side.polar;
+            side.half = -side.half;
+        }
+    }
+    return side;
+}
+
+int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
+                            lrcsi_round_sector *sector)
+{
+    const lrcs_prepared *p = wall->view->prepared;
+    const lrcs_part *part = wall->surface.part;
+    lrcsi_wall_patch at;
+    uint32_t vertex[4];
+    double turning = 0; /* positive if the corners run counter-clockwise in the view */
+    if (!lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at)) {
+        return 0;
+    }
+    sector->facets = (int)at.facets;
+    sector->facet[0] = at.facets == 2 ? lrcsi_patch_sector(p, facet) : facet;
+    sector->facet[1] = at.facets == 2 ? sector->facet[0] + 1 : facet;
+    for (int i = 0; i < 4; i++) {
+        uint32_t row = at.row + (uint32_t)corner_row[i];
+        double z = (at.mirrored ? -1 : 1) * lrcsi_revolution_height(&wall->body, row) * wall->unit;
+        double azimuth = 2.0 * ((double)at.sector + corner_azimuth[i]) * wall->body.half;
+        vertex[i] = corner_vertex(
+            wall, sector, lrcsi_revolution_radius(&wall->body, row) * wall->unit, z, azimuth);
+    }
+    if (vertex[0] == vertex[1] || vertex[0] == vertex[2] || vertex[0] == vertex[3] ||
+        vertex[1] == vertex[2] || vertex[1] == vertex[3] ||
+        (vertex[2] == vertex[3]) != (at.facets == 1)) {
+        return 0;
+    }
+    for (int i = 0; i < 4; i++) {
+        turning += lrcsi_vec2_cross(wall->view->point[vertex[i]].x,
+                                    wall->view->point[vertex[(i + 1) % 4]].x);
+    }
+    sector->sides = 0;
+    for (int i = 0; i < 4; i++) {
+        if (i == 2 && at.facets == 1) { /* the apex */
+            continue;
+        }
+        lrcsi_round_side side = side_make(wall, &at, i);
+        side.vertex[0] = vertex[turning > 0 ? i : (i + 1) % 4];
+        side.vertex[1] = vertex[turning > 0 ? (i + 1) % 4 : i];
+        side.sign = turning > 0 ? side.sign : -side.sign;
+        for (int k = 0; k < 2; k++) {
+            const double a = wall->view->point[side.vertex[0]].x[k];
+            const double b = wall->view->point[side.vertex[1]].x[k];
+            side.chord[k] = 0.5 * (a + b);
+            side.step[k] = 0.5 * (b - a);
+        }
+        if (!side_find(wall, sector, &side)) {
+            return 0;
+        }
+        sector->side[sector->sides++] = side;
+    }
+    return 1;
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* The sectors of a round wall in a view, and the margins of their sides: the area in projection
+   between a side and the arc of the true surface that it stands for (integrate/wall/round_pieces.h). */
+#ifndef LRCSI_ROUND_SECTOR_H
+#define LRCSI_ROUND_SECTOR_H
+
+#include "integrate/plan.h"
+#include "integrate/wall/round_surface.h"
+#include "mesh/shape/revolution.h"
+
+/* The wall of a part in a view. */
+typedef struct lrcsi_round_wall {
+    const lrcsi_view *view;
+    uint32_t part;
+    lrcsi_round_surface surface;
+    lrcsi_revolution body;
+    double unit; /* scaled length of a unit of the shape */
+    lrcs_brdf brdf;
+} lrcsi_round_wall;
+lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                       uint32_t part);
+
+/* Covers the roundings of sums of positive terms. */
+#define LRCSI_ROUND_UPWARD (1 + 1e-9)
+
+/* Ratios of e to the largest |v| (integrate/wall/round_surface.h) for which M is computed; the smallest
+   remainder is used. */
+#define LRCSI_ROUND_RATIOS 6
+extern const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS];
+
+/* A sum of integrals of G, with bounds on its errors. */
+typedef struct lrcsi_round_sum {
+    double glint, diffuse, rounding, remainder;
+} lrcsi_round_sum;
+
+/* A side of a sector: the arc of its patch and the chord of its facets, with one parameter t in
+   -1 .. 1. The arc is a part of a row's circle or of a meridian, with its own parameter, sign t. */
+typedef struct lrcsi_round_side {
+    int is_row;
+    double sign;
+    double rho, z, azimuth, polar; /* of the middle, scaled; z of rows, polar of meridians */
+    double half;                   /* half the difference between the ends: of azimuths of a row; of
+                                      polar angles on the meridian of a sphere or dome, of radii on
+                                      that of a paraboloid */
+    double chord[2], step[2];      /* the middle of the chord, half of it */
+    uint32_t vertex[2];
+    uint32_t facet, neighbour; /* the facet that has it, and the one across it, or LRCS_NONE */
+    int corner;                /* it is that facet's side from this corner to the next */
+} lrcsi_round_side;
+
+/* A sector and its sides, counter-clockwise in the view. */
+typedef struct lrcsi_round_sector {
+    uint32_t facet[2];
+    int facets, sides;
+    lrcsi_round_side side[4];
+} lrcsi_round_sector;
+
+/* Makes the sector of a facet on the wall. Returns 0 if its corners are not known. */
+int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
+                            lrcsi_round_sector *sector);
+
+/* A margin: the integral of G over it, positive where the arc is outside the sector; a bound on the
+   size of that integral over any part of it; and a bound on its width. */
+typedef struct lrcsi_round_margin {
+    lrcsi_round_sum sum;
+    double largest, width;
+} lrcsi_round_margin;
+
+/* Returns 0 if it is not known, or if the tangent of the true surface's inclination to the view
+   plane may exceed 8 above it. */
+int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                            lrcsi_round_margin *margin);
+
+#endif

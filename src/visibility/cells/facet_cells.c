@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT */
+/* The visible area and pieces of one facet, f, by cells that begin as its triangle. Only the
+   visibility of f is decided, which takes less work per cell than the cells of a block do
+   (visibility/cells/cells.c).
+
+   The candidates are the facets that may be in front of f. The segments are all lines at which the
+   visibility of f can change: the event edges that cross the interior of f and are nearer than f,
+   found exactly (visibility/uniform/crossing.h); the contacts of f; and the sides of facets in the plane of
+   f that hide it (visibility/cells/facet_cells_candidate.c). A sample finds which facets are in front of
+   f at a point P of a cell (visibility/cells/facet_cells_sample.c). Let x be any other point of the
+   cell.
+
+   (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
+   visible: nothing changes on the way from P to x.
+
+   (2) If a facet is in front of f at P, consider its component: all facets connected with it by
+   edges that are not events (visibility/uniform/classify.h). If no segment is left at which the component
+   ends or meets f, the component continues on the way from P to x, and stays in front of f, because
+   it would have to intersect f to pass behind it. So f is hidden in all of the cell.
+
+   (3) Otherwise the cell is cut along a segment of the component that has the fewest segments left.
+
+   A facet that intersects f may be behind f except in a strip no wider than its error. Within that
+   strip it counts as in front of f. The strip can be long; it ends at event edges, which are
+   segments like all others. Near the line of the contact it remains undecided whether the facet is
+   in front.
+
+   Error. Lines, strips and cells are those of visibility/cells/cells_cut.c, in coordinates from a corner
+   of f. The ends of segments have an error of 10 u R, where R is their distance from that corner,
+   or the part of it that matters (visibility/cells/target.h); those of contacts have 16 u R and a
+   position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold in
+   f's triangle as it is computed, whose area differs from that of f by at most the length of its
+   sides times their error.
+
+   A needle may be narrower than these errors. It is divided in barycentric coordinates instead
+   (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except for the
+   frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
+   of another facet on which a point lies is computed in double-double. Areas are then in units of
+   twice the projected area of f. */
+#include "visibility/cells/facet_cells.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/cells/cells_cut.h"
+#include "visibility/cells/facet_cells_candidate.h"
+#include "visibility/cells/facet_cells_sample.h"
+
+/* Limit on the cells of a facet: a constant, and so many for each segment. */
+#define CELLS_CONSTANT    4096u
+#define CELLS_PER_SEGMENT 256u
+/* A cell without room for a sample is halved if its area exceeds its perimeter times this many
+   distances that a sample must keep from the border: then it is not too narrow for a sample. */
+#define NARROW 64
+/* It is not halved either if its area is at most this fraction of the area of f: 4096 such cells,
+   more than a facet ordinarily has, are then less than 1e-12 of it. */
+#define MIN_HALVED 0x1p-52
+
+/* --- the first cell --------------------------------------------------------------------------- */
+
+/* Leaves an area undecided: it counts as half visible. */
+static void leave_area_undecided(lrcsi_facet_cells *a, double area)
+{
+    a->perhaps_hidden += 0.5 * area;
+    a->perhaps_visible += 0.5 * area;
+}
+
+/* 1. Makes the frame of f. 2. Makes the record of f, the first cell, and the error along the sides
+   of f. 3. Lists what may hide f, unless rounding may have reversed the triangle's orientation. */
+void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
+{
+    lrcsi_division *d = &a->division;
+    const lrcsi_target *frame = &a->frame;
+    lrcsi_cells_facet *f = &a->shape;
+    lrcsi_cell cell = {.cuts = 0};
+    a->facet = facet;
+    lrcsi_target_make(d->view, facet, &a->target);
+    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
+
+    double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = facet};
+    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell.shape);
+    lrcsi_clip_box(&cell.shape, f->low, f->high);
+    for (int k = 0; k < 3; k++) {
+        f->x[k] = frame->corner[k][0];
+        f->y[k] = frame->corner[k][1];
+        lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
+    }
+    a->wanted = 1;
+    a->area = (lrcsi_cell_area){.visible = 0};
+    d->facet = f;
+    d->area = &a->area;
+    d->wanted = &a->wanted;
+    d->facet_err = err;
+    d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
+    d->segment_count = d->stack_count = 0;
+    cell.facet = d->facet_lists;
+    cell.facet[0] = 0;
+    cell.facet_count = 1;
+    a->moment = (lrcsi_moment){.error = 0};
+    a->perhaps_hidden = a->perhaps_visible = a->piece_err = 0;
+    a->hidden = 0;
+    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
+    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
+
+    if (!(lrcsi_clip_area(&cell.shape) > 8 * err * frame->diameter) ||
+        !lrcsi_facet_cells_candidates(a) || !lrcsi_facet_cells_segments(a)) {
+        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
+        return;
+    }
+    lrcsi_division_start(d, &cell);
+    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segment_count;
+}
+
+/* --- one cell --------------------------------------------------------------------------------- */
+
+/* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
+   along the view's axes. */
+static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                              const lrcsi_clip_sides *s)
+{
+    lrcsi_cell_area *area = &a->area;
+    a->piece = cell->shape;
+    if (a->frame.needle) {
+        for (uint32_t i = 0; i < cell->shape.count; i++) {
+            lrcsi_target_to_axes(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
+        }
+        a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_box_perimeter(&a->piece);
+    }
+    double(*corner)[2] = a->target.corner;
+    const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
+                              (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
+    double reach = lrcsi_clip_add_moment(&a->piece, centre, a->moment.first);
+    a->moment.reach = lrcsi_max(a->moment.reach, reach);
+    area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
+    area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
+                                                               (s->high[0] - s->low[0]) *
+                                                               (s->high[1] - s->low[1]);
+}
+
+/* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
+static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
+{
+    lrcsi_division *d = &a->division;
+    lrcsi_clip_sides s;
+    lrcsi_facet_cells_sample sample;
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
+    lrcsi_cells_filter_segments(d, cell, &s);
+
+    /* 1. A sample. */
+    lrcsi_facet_cells_sample_take(a, cell, &s, &sample);
+    if (sample.hidden <= 0) {
+        sample.ends = lrcsi_facet_cells_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
+    }
+
+    /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
+     */
+    if (sample.hidden >= 0 && sample.ends == 0) {
+        a->area.uncertainty +=
+            cell->uncertainty + lrcsi_cells_thin_uncertainty(cell, &s, sample.border_distance,
+                                                             cell->removed, d->facet_err);
+        a->hidden |= sample.hidden;
+        if (!sample.hidden) {
+            add_visible_piece(a, cell, &s);
+        }
+        return !sample.hidden;
+    }
+
+    /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
+       negligible. */
+    double narrow = NARROW * (cell->widest_strip + d->facet_err + s.tolerance) * s.perimeter;
+    if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
+                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->halved_area, narrow) &&
+                       lrcsi_cells_halve(d, cell, &s))) {
+        double *perhaps = sample.guess ? &a->perhaps_hidden : &a->perhaps_visible;
+        *perhaps += lrcsi_clip_area(&cell->shape);
+    }
+    return 0;
+}
+
+/* --- one facet -------------------------------------------------------------------------------- */
+
+int lrcsi_facet_cells_next(lrcsi_facet_cells *a)
+{
+    lrcsi_division *d = &a->division;
+    while (d->stack_count > 0) {
+        lrcsi_cell cell = d->stack[--d->stack_count];
+        uint64_t steps = (uint64_t)1 + a->candidate_count + cell.segment_count;
+        if (a->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
+            leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
+            continue;
+        }
+        a->cells_left--;
+        if (process_facet_cell(a, &cell)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The pieces differ from the visible region by at most `err`, an area, all that is undecided, and
+   the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
+   All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
+   its moment is 0. */
+static void moment_close(lrcsi_facet_cells *a, double err)
+{
+    const lrcsi_target *t = &a->target;
+    double undecided = a->perhaps_hidden + a->perhaps_visible;
+    double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
+    double reach = lrcsi_max(a->moment.reach, t->diameter);
+    if (a->frame.needle) {
+        a->moment.error = HUGE_VAL;
+    } else if (a->hidden || undecided > 0) {
+        a->moment.error = reach * differs;
+    } else {
+        a->moment = (lrcsi_moment){.error = reach * differs};
+    }
+}
+
+lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
+{
+    const lrcsi_cell_area *found = &a->area;
+    lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
+    double whole = incidence.projected;
+    double unit = a->frame.unit;
+    double err = unit * (a->border_area + found->uncertainty + found->visible_err +
+                         64 * LRCSI_U * (found->visible + a->perhaps_visible));
+    double seen = a->hidden || a->perhaps_hidden > 0
+                      ? lrcsi_min(whole, unit * (found->visible + a->perhaps_visible))
+                      : whole;
+    err += a->frame.needle ? incidence.error * whole : 0;
+    moment_close(a, err);
+    return (lrcsi_visible_area){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
+                                lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
+}
+
+/* --- all facets ------------------------------------------------------------------------------- */
+
+/* Room for the sides of so many candidates. */
+#define MAX_SIDES 65536u
+/* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
+   last. */
+#define SINGLE_FACET_LISTS (LRCSI_CELL_STACK + 2)
+
+static uint32_t sides_room(const lrcs_prepared *p)
+{
+    return p->scene->facet_count < MAX_SIDES ? p->scene->facet_count : MAX_SIDES;
+}
+
+/* Each event may cross a facet, and each of its contacts may add the three sides of a facet. */
+static size_t max_segments(const lrcs_prepared *p, size_t events)
+{
+    size_t contacts = 0; /* the most that a facet has */
+    for (uint32_t f = 0; p->intersections.count > 0 && f < p->scene->facet_count; f++) {
+        size_t count = lrcsi_intersection_of(&p->intersections, f);
+        contacts = count > contacts ? count : contacts;
+    }
+    return events + 3 * contacts;
+}
+
+size_t lrcsi_facet_cells_need(const lrcs_prepared *p)
+{
+    size_t segments = max_segments(p, p->topology.edge_count);
+    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_facet_cells_side));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(3, p->scene->facet_count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(SINGLE_FACET_LISTS, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_crossings_need(p));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
+}
+
+int lrcsi_facet_cells_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                           const lrcsi_grid *grid, lrcs_work *work, lrcsi_facet_cells *a)
+{
+    const lrcs_prepared *p = classification->view->prepared;
+    uint32_t count = p->scene->facet_count;
+    lrcsi_division *d = &a->division;
+    *a = (lrcsi_facet_cells){
+        .classification = classification, .grid = *grid, .side_room = sides_room(p)};
+    d->view = classification->view;
+    d->meter = meter;
+    d->segment_room = (uint32_t)max_segments(p, classification->events.count);
+    d->facet_lists_room = SINGLE_FACET_LISTS;
+    d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)d->segment_room;
+    a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
+    a->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    a->order = lrcsi_work_take(work, count, 1);
+    a->contact = lrcsi_work_take(work, count, sizeof *a->contact);
+    a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
+    d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
+    d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
+    d->segment = lrcsi_work_take(work, d->segment_room, sizeof *d->segment);
+    d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
+    if (!a->side || !a->listed.entry || !a->order || !a->contact || !a->candidate ||
+        !d->facet_lists || !d->segment_lists || !d->segment || !d->stack) {
+        return LRCS_E_MEMORY;
+    }
+    return lrcsi_crossings_make(&classification->search, work, &a->crossings);
+}

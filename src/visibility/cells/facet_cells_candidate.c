@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* What may hide one facet, f: the candidates, their depth order against f, and the segments along
+   which they begin or cease to hide it. Which of them hide it at a point is decided in
+   visibility/cells/facet_cells_sample.c. */
+#include "visibility/cells/facet_cells_candidate.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/length.h"
+#include "view/side.h"
+#include "visibility/cells/contact.h"
+#include "visibility/sample.h"
+
+/* --- candidates ------------------------------------------------------------------------------- */
+
+/* May a facet be in front of f? */
+static int is_candidate(const lrcsi_facet_cells *a, uint32_t other)
+{
+    return lrcsi_marked(&a->listed, other) && a->order[other] != LRCSI_ORDER_DISJOINT;
+}
+
+/* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
+   overlap. */
+int lrcsi_facet_cells_order(const lrcsi_facet_cells *a, uint32_t other)
+{
+    const lrcsi_view *view = a->division.view;
+    int order = lrcsi_sample_side(view, other, a->facet);
+    if (order == 0) {
+        const lrcsi_intersection *contact =
+            lrcsi_intersection_find(&view->prepared->intersections, a->facet, other);
+        order = contact && !lrcsi_sample_contact_hides(view, a->facet, contact)
+                    ? -1
+                    : lrcsi_sample_overlap_order(view, other, a->facet);
+    }
+    return order > 0 ? LRCSI_ORDER_FRONT : order < 0 ? LRCSI_ORDER_BEHIND : LRCSI_ORDER_UNDECIDED;
+}
+
+/* Does another facet lie entirely beyond one side of f? */
+static int facet_apart(const lrcsi_facet_cells *a, const lrcsi_view_side own[3], uint32_t other)
+{
+    const lrcsi_view *view = a->division.view;
+    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    int apart = 0;
+    for (int k = 0; k < 3 && !apart; k++) {
+        apart = 1;
+        for (int i = 0; i < 3 && apart; i++) {
+            const lrcsi_view_vertex *at = &view->point[its[i]];
+            apart = view->facing[a->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
+        }
+    }
+    return apart;
+}
+
+int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
+{
+    const lrcsi_grid *grid = &a->grid;
+    lrcsi_division *d = &a->division;
+    lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    const uint32_t *corner = d->view->prepared->scene->facet[a->facet].corner;
+    lrcsi_view_side side[3];
+    for (int k = 0; k < 3; k++) {
+        side[k] = lrcsi_view_side_of(d->view, corner[k], corner[k == 2 ? 0 : k + 1]);
+    }
+    a->candidate_count = 0;
+    lrcsi_marks_clear(&a->listed, d->view->prepared->scene->facet_count);
+    a->listed.entry[a->facet] = a->listed.number;
+    a->order[a->facet] = LRCSI_ORDER_DISJOINT;
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+        if (!lrcsi_meter_take(d->meter, items.to - items.from)) {
+            return 0;
+        }
+        for (uint32_t i = items.from; i < items.to; i++) {
+            uint32_t other = grid->item[i];
+            const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
+            if (lrcsi_marked(&a->listed, other) || lrcsi_view_box_beside(its, &box) ||
+                lrcsi_view_box_behind(its, &box)) {
+                continue;
+            }
+            a->listed.entry[other] = a->listed.number;
+            a->order[other] = LRCSI_ORDER_DISJOINT;
+            if (!facet_apart(a, side, other)) {
+                int front = lrcsi_view_box_behind(&box, its);
+                a->order[other] =
+                    front ? (uint32_t)LRCSI_ORDER_FRONT : (uint32_t)LRCSI_ORDER_NOT_COMPUTED;
+                if (a->candidate_count < a->side_room) {
+                    a->side[a->candidate_count][0].err = -1; /* not made yet */
+                }
+                a->candidate[a->candidate_count++] = other;
+            }
+        }
+    }
+    return 1;
+}
+
+/* --- segments --------------------------------------------------------------------------------- */
+
+/* The error of a segment in a needle's frame, given the error of its ends. The box reaches 3, so
+   that 24 u of 4.5 bounds the rounding of the ends, of the line, and of the distance of a point of
+   the needle from the line. An error that is large compared with the margin of the box around the
+   needle says nothing: the segment may then be anywhere. */
+static double needle_segment_err(double end_err)
+{
+    return end_err < 0.25 ? 192 * LRCSI_U + 2 * end_err : 4;
+}
+
+static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
+{
+    for (int n = 0; n < 2; n++) {
+        e->end[n][0] = end[n][0];
+        e->end[n][1] = end[n][1];
+    }
+    lrcsi_line_through(end[0], end[1], e->line);
+    e->length = lrcsi_length_flat(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+    e->line_err = e->err;
+}
+
+/* Is neither of an edge's facets in front of f anywhere? */
+static int edge_is_behind(lrcsi_facet_cells *a, const uint32_t owner[2])
+{
+    int behind = 1;
+    for (int i = 0; i < 2 && behind; i++) {
+        if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
+            unsigned char *order = &a->order[owner[i]];
+            if (*order == LRCSI_ORDER_NOT_COMPUTED) {
+                *order = (unsigned char)lrcsi_facet_cells_order(a, owner[i]);
+            }
+            behind = *order == LRCSI_ORDER_BEHIND;
+        }
+    }
+    return behind;
+}
+
+/* Adds an edge, unless its facets are behind f. 0 if there is no room. */
+static int add_facet_edge(lrcsi_facet_cells *a, uint32_t edge)
+{
+    lrcsi_division *d = &a->division;
+    const lrcs_prepared *p = d->view->prepared;
+    const lrcsi_edge *of = &p->topology.edge[edge];
+    lrcsi_cells_segment *e = lrcsi_division_edge(d, edge);
+    if (!e) {
+        return 0;
+    }
+    if (e->edge == LRCS_NONE && edge_is_behind(a, e->owner)) {
+        d->segment_count--;
+        return 1;
+    }
+    double end[2][2];
+    const double *from = p->vertex[of->low].x;
+    const double *to = p->vertex[of->high].x;
+    if (a->frame.needle) {
+        e->err = needle_segment_err(lrcsi_needle_segment(a->frame.needle, from, to, end));
+    } else {
+        const double away[2] = {lrcsi_target_coordinates(&a->frame, from, end[0]),
+                                lrcsi_target_coordinates(&a->frame, to, end[1])};
+        e->err = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
+    }
+    segment_ends(e, (const double(*)[2])end);
+    return 1;
+}
+
+/* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
+   if there is no room. */
+static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
+{
+    lrcsi_division *d = &a->division;
+    lrcsi_contact contact;
+    int side = lrcsi_sample_side(d->view, other, a->facet);
+    int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
+    a->order[other] = side > 0   ? LRCSI_ORDER_FRONT
+                      : side < 0 ? LRCSI_ORDER_BEHIND
+                                 : LRCSI_ORDER_NOT_COMPUTED;
+    if (side == 0 && kind != LRCSI_CONTACT_POINT) {
+        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? LRCSI_ORDER_FRONT
+                          : kind == LRCSI_CONTACT_UNKNOWN ? LRCSI_ORDER_UNDECIDED
+                                                          : LRCSI_ORDER_CONTACT;
+        a->contact[other] = d->segment_count;
+    }
+    if (kind == LRCSI_CONTACT_POINT) {
+        return 1;
+    }
+    if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
+        int done = 1;
+        for (int k = 0; k < 3 && done; k++) {
+            done = add_facet_edge(a, d->view->prepared->topology.facet_edge[other].corner[k]);
+        }
+        return done;
+    }
+    lrcsi_cells_segment *e = lrcsi_division_segment(d);
+    if (!e) {
+        return 0;
+    }
+    e->err = a->frame.needle ? needle_segment_err(contact.corner_err + contact.position_err)
+                             : 32 * LRCSI_U * contact.reach + contact.position_err;
+    e->owner[0] = a->facet;
+    e->owner[1] = other;
+    e->contact = kind;
+    segment_ends(e, (const double(*)[2])contact.end);
+    return 1;
+}
+
+int lrcsi_facet_cells_segments(lrcsi_facet_cells *a)
+{
+    lrcsi_division *d = &a->division;
+    const lrcsi_intersections *intersections = &d->view->prepared->intersections;
+    for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
+        const lrcsi_intersection *contact = &intersections->entry[i];
+        if (is_candidate(a, contact->other) &&
+            lrcsi_sample_contact_hides(d->view, a->facet, contact) &&
+            !add_facet_contact(a, contact->other)) {
+            return 0;
+        }
+    }
+    lrcsi_crossings_find(&a->classification->search, a->facet, d->meter, &a->crossings);
+    for (uint32_t i = 0; i < a->crossings.count; i++) {
+        if (!add_facet_edge(a, a->crossings.edge[i])) {
+            return 0;
+        }
+    }
+    return lrcsi_meter_take(d->meter, (uint64_t)a->candidate_count + d->segment_count);
+}

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT */
+/* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
+   segment the cell is best cut. What follows for the cell is decided in visibility/cells/facet_cells.c.
+ */
+#include "visibility/cells/facet_cells_sample.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/length.h"
+#include "base/range.h"
+#include "view/side.h"
+#include "visibility/cells/cells_cover.h"
+#include "visibility/cells/contact.h"
+#include "visibility/cells/facet_cells_candidate.h"
+#include "visibility/sample.h"
+
+/* The sides of a candidate need better error bounds if its farthest corner is more than this many
+   times as far away as its nearest corner and the reach of f together. */
+#define FAR_RATIO 64
+
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const double at[2], uint32_t component,
+                                  const lrcsi_cells_segment **best)
+{
+    const lrcsi_topology *topology = &a->division.view->prepared->topology;
+    const lrcsi_marks of_component = {a->classification->component, component};
+    uint32_t count = 0;
+    double nearest = HUGE_VAL;
+    *best = NULL;
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &a->division.segment[cell->segment[i]];
+        int matters = component == LRCS_NONE;
+        if (!matters) {
+            matters = e->contact ? lrcsi_marked(&of_component, e->owner[1])
+                                 : lrcsi_cells_segment_marked(topology, e, &of_component);
+        }
+        if (matters) {
+            double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
+            count++;
+            *best = far < nearest ? e : *best;
+            nearest = lrcsi_min(far, nearest);
+        }
+    }
+    return count;
+}
+
+/* --- samples ---------------------------------------------------------------------------------- */
+
+/* Finds the sample's point in space from its barycentric coordinates; its coordinates are
+   rounded. */
+static void sample_unproject(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
+{
+    const lrcs_prepared *p = a->division.view->prepared;
+    double weight[3];
+    lrcsi_target_weights(&a->frame, sample->at, weight);
+    for (int k = 0; k < 3; k++) {
+        sample->point[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            sample->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
+        }
+    }
+    sample->test = LRCSI_TEST_EXACT;
+}
+
+/* Places the sample in the view: f's first corner plus the vector from there. The vector has the
+   error of f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the
+   frame's position error. */
+static void sample_place(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
+{
+    double first[3];
+    lrcsi_view_coordinates(a->division.view, a->target.origin, first);
+    lrcsi_target_to_axes(&a->frame, sample->at, sample->view);
+    sample->view[0] += first[0];
+    sample->view[1] += first[1];
+    sample->view[2] = first[2];
+    sample->view_err = lrcsi_view_point_err(first) + sample->err +
+                       (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach;
+    sample->box = lrcsi_view_box_about(a->division.view, sample->view, sample->view_err);
+}
+
+/* Does the sample lie beyond a side of a facet, by view coordinates? */
+static int sample_is_beyond(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
+                            uint32_t other)
+{
+    const lrcsi_view *view = a->division.view;
+    const uint32_t *corner = view->prepared->scene->facet[other].corner;
+    int beyond = 0;
+    for (int k = 0; k < 3 && !beyond; k++) {
+        lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[k == 2 ? 0 : k + 1]);
+        beyond =
+            view->facing[other] * lrcsi_view_side_orient(&side, sample->view, sample->view_err) ==
+            -1;
+    }
+    return beyond;
+}
+
+/* The sides of a facet in f's frame, each with an error: a point nearer than this to the line may
+   be on either side of it. The error is 20 u R, where R is the largest distance of the facet's
+   corners. For a facet that is narrow or extends far away this is too much. There the line of each
+   side begins at n, the nearer of its ends p and q. The error of the side T is 12 u (r_p + r_q),
+   rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
+   length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
+   1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
+static void sides_make(const lrcsi_facet_cells *a, uint32_t other, lrcsi_facet_cells_side side[3])
+{
+    const lrcsi_target *frame = &a->frame;
+    const lrcsi_view *view = a->division.view;
+    double corner[3][2];
+    double reach[3];
+    double length[3];
+    for (int k = 0; k < 3 && frame->needle; k++) {
+        const double *from = lrcsi_target_corner(view, other, k);
+        const double *to = lrcsi_target_corner(view, other, (k + 1) % 3);
+        side[k].err = lrcsi_needle_line(frame->needle, from, to, side[k].line);
+    }
+    if (frame->needle) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_corner(view, other, k);
+        reach[k] = lrcsi_target_coordinates(frame, x, corner[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *to = corner[k == 2 ? 0 : k + 1];
+        lrcsi_line_through(corner[k], to, side[k].line);
+        length[k] = lrcsi_length_flat(to[0] - corner[k][0], to[1] - corner[k][1]);
+    }
+    double nearest = lrcsi_min3(reach[0], reach[1], reach[2]);
+    double farthest = lrcsi_max3(reach[0], reach[1], reach[2]);
+    double longest = lrcsi_max3(length[0], length[1], length[2]);
+    double err = 20 * LRCSI_U * farthest;
+    double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+                   (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+    int irregular = !(twice > 16 * err * (longest + 4 * err)) ||
+                    farthest > FAR_RATIO * (nearest + frame->reach);
+    for (int k = 0; k < 3; k++) {
+        int next = k == 2 ? 0 : k + 1;
+        int n = reach[k] <= reach[next] ? k : next;
+        double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
+        side[k].err = err;
+        if (irregular) {
+            double *line = side[k].line;
+            line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
+            side[k].err =
+                16 * LRCSI_U *
+                ((reach[k] + reach[next]) * (gap / length[k]) + reach[n] + frame->diameter);
+        }
+    }
+}
+
+/* Does a candidate cover the sample? 1 certainly, -1 certainly not, 0 the sample is too near a
+   side. The sides are computed when they are first needed, and kept as far as there is room. In a
+   needle, whose points have the frame's position error, lines in plain doubles nearly always
+   suffice. */
+static int sides_cover(lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
+                       uint32_t candidate, double tolerance)
+{
+    const lrcsi_needle *needle = a->frame.needle;
+    const lrcsi_view *view = a->division.view;
+    uint32_t other = a->candidate[candidate];
+    if (!needle && sample->test == LRCSI_TEST_EXACT) {
+        return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
+    }
+    lrcsi_facet_cells_side made[3] = {{.err = -1}};
+    lrcsi_facet_cells_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    if (sides[0].err < 0) {
+        sides_make(a, other, sides);
+    }
+    int inside = 1;
+    int guess = sample->test == LRCSI_TEST_GUESSED;
+    for (int k = 0; k < 3; k++) {
+        double left = lrcsi_line_at(sides[k].line, sample->at[0], sample->at[1]);
+        double err = needle ? sides[k].err : guess ? 0 : sides[k].err + tolerance;
+        if (needle && !(fabs(left) > err)) {
+            left =
+                lrcsi_needle_side(needle, lrcsi_target_corner(view, other, k),
+                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
+            err = 0;
+        }
+        if (left < -err) {
+            return -1;
+        }
+        inside &= left > err;
+    }
+    return guess && !inside ? -1 : inside;
+}
+
+/* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
+   sample is near the line in which they intersect. */
+static int candidate_in_front(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
+                              uint32_t other, double tolerance)
+{
+    int order = a->order[other];
+    if (order == LRCSI_ORDER_CONTACT) {
+        const lrcsi_cells_segment *e = &a->division.segment[a->contact[other]];
+        double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
+        double w = sample->test == LRCSI_TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
+        int side = left > w ? 1 : left < -w ? -1 : 0;
+        return e->contact == LRCSI_CONTACT_LINE    ? side
+               : e->contact == LRCSI_CONTACT_FRONT ? side * side
+                                                   : -side * side;
+    }
+    return order == LRCSI_ORDER_FRONT ? 1 : order == LRCSI_ORDER_BEHIND ? -1 : 0;
+}
+
+/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
+   a segment of the component with the fewest segments in the cell; a component with none ends the
+   search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
+static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                            lrcsi_facet_cells_sample *sample)
+{
+    uint32_t last = LRCS_NONE;
+    int answer = 0;
+    sample->ends = LRCS_NONE;
+    for (uint32_t i = 0; i < a->candidate_count && sample->ends > 0; i++) {
+        uint32_t other = a->candidate[i];
+        uint32_t component = a->classification->component[other];
+        unsigned char *order = &a->order[other];
+        if (*order == LRCSI_ORDER_BEHIND ||
+            lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other)) ||
+            (a->frame.needle && sample_is_beyond(a, sample, other))) {
+            continue;
+        }
+        int covered = sides_cover(a, sample, i, s->tolerance);
+        if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
+            *order = (unsigned char)lrcsi_facet_cells_order(a, other);
+        }
+        int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
+        if (front < 0 || (answer > 0 && component == last)) {
+            continue;
+        }
+        if (front == 0 || covered == 0) {
+            answer = answer > 0 ? answer : -1;
+            continue;
+        }
+        const lrcsi_cells_segment *cut;
+        uint32_t ends = lrcsi_facet_cells_choose(a, cell, sample->at, component, &cut);
+        if (ends < sample->ends) {
+            sample->ends = ends;
+            sample->cut = cut;
+        }
+        last = component;
+        answer = 1;
+    }
+    return answer;
+}
+
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
+{
+    double margin = 4 * (cell->widest_strip + a->division.facet_err + s->tolerance);
+    double unproject_err = lrcsi_target_unproject_err(&a->target);
+    int hidden = -1;
+    for (int t = 0; t < LRCSI_SAMPLES && hidden < 0; t++) {
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_BOUNDED};
+        lrcsi_cells_sample_point(cell, t, sample->at);
+        sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
+        if (!(sample->border_distance > margin)) {
+            continue;
+        }
+        sample_place(a, sample);
+        hidden = sample_is_hidden(a, cell, s, sample);
+        if (hidden < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
+            sample_unproject(a, sample);
+            sample->err = unproject_err;
+            sample_place(a, sample);
+            sample->border_distance -= unproject_err;
+            hidden = sample_is_hidden(a, cell, s, sample);
+        }
+    }
+    int guess = hidden;
+    if (hidden < 0) {
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
+        lrcsi_cells_sample_point(cell, 0, sample->at);
+        sample_unproject(a, sample);
+        sample->test = LRCSI_TEST_GUESSED;
+        sample_place(a, sample);
+        guess = sample_is_hidden(a, cell, s, sample) > 0;
+    }
+    sample->hidden = hidden;
+    sample->guess = guess;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* Samples in the cells of one facet, f: is it hidden there? (visibility/cells/facet_cells.c) */
+#ifndef LRCSI_FACET_CELLS_SAMPLE_H
+#define LRCSI_FACET_CELLS_SAMPLE_H
+
+#include "visibility/cells/facet_cells_state.h"
+
+/* How the facets at a sample are found: with error bounds, at its point of the frame; exactly, at a
+   nearby point in space; or by the signs of rounded values, which is only a guess. */
+enum lrcsi_sample_test { LRCSI_TEST_BOUNDED, LRCSI_TEST_EXACT, LRCSI_TEST_GUESSED };
+
+/* A sample in a cell. */
+typedef struct lrcsi_facet_cells_sample {
+    double at[2];
+    double border_distance; /* a lower bound of its distance from the border of the cell */
+    int test;               /* a lrcsi_sample_test */
+    double point[3];
+    double err;         /* the distance in the view between `at` and `point` */
+    double view[3];     /* its coordinates in the view, except for the depth */
+    double view_err;    /* their error, each */
+    lrcsi_view_box box; /* around it in the view; its depth does not count */
+    int hidden;         /* is f hidden there? 1 yes, 0 no, -1 undecided */
+    int guess;          /* the same if it is decided; else 1 if f is probably hidden, 0 if not */
+    /* If f is hidden: */
+    uint32_t ends;                  /* of the components in front of f, the fewest segments of the
+                                       cell at which one ends or meets f */
+    const lrcsi_cells_segment *cut; /* one of these segments, if there is any */
+} lrcsi_facet_cells_sample;
+
+/* Takes samples in the cell until one is decided, and returns the last one. */
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample);
+
+/* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
+   are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
+   or meets f count.
+   Returns how many there are to choose from. */
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const double at[2], uint32_t component,
+                                  const lrcsi_cells_segment **best);
+
+#endif

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+/* Which edges are event edges in a view and which join two facets of one surface, from the
+   directions in which their facets face. What event edges cross is decided elsewhere. */
+#include "visibility/index/event.h"
+
+#include <string.h>
+
+#include "base/disjoint.h"
+#include "base/work.h"
+
+/* --- one edge --------------------------------------------------------------------------------- */
+
+/* In projection a facet lies to the left of its side if it faces the laser, otherwise to the right.
+   Two facets lie on opposite sides of an edge if and only if they traverse it in opposite
+   directions and face the same way, or in the same direction and face opposite ways (as where the
+   winding of a surface changes). */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2])
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_topology *t = &p->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    uint32_t count = 0;
+    uint32_t forward = 0; /* facets that traverse the edge in its own direction */
+    int left = 0;         /* facets on the left of the edge, less those on the right */
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        uint32_t f = use[i].facet;
+        if (part == LRCS_NONE ? lrcsi_view_casts(view, f)
+                              : p->scene->facet_part[f] == part && !p->skip[f]) {
+            pair[count < 2 ? count : 1] = f;
+            count++;
+            forward += use[i].forward;
+            left += use[i].forward ? view->facing[f] : -view->facing[f];
+        }
+    }
+    if (count == 0) {
+        return LRCSI_EDGE_UNUSED;
+    }
+    int opposite = count == 2 && left == 0;
+    int continues = part == LRCS_NONE || (forward == 1 && view->facing[pair[0]] != 0);
+    return opposite && continues ? LRCSI_EDGE_JOINS : LRCSI_EDGE_EVENT;
+}
+
+/* --- all edges -------------------------------------------------------------------------------- */
+
+/* One bit for each edge, so that events are listed in order, each once, with little memory. */
+enum { MARK_BITS = 32 };
+
+static size_t mark_words(const lrcs_prepared *p)
+{
+    return ((size_t)p->topology.edge_count + MARK_BITS - 1) / MARK_BITS;
+}
+
+static void mark_edge_event(uint32_t *mark, uint32_t edge)
+{
+    mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
+}
+
+/* Do all facets of the meshlets around a meshlet have the same value as all of its own facets? */
+static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t meshlet)
+{
+    signed char own = value[(size_t)meshlet * LRCSI_MESHLET_FACETS];
+    for (uint32_t i = p->meshlets.first_link[meshlet]; i < p->meshlets.first_link[meshlet + 1];
+         i++) {
+        uint32_t other = p->meshlets.link[i];
+        if (other == LRCS_NONE ? own != 0
+                               : value[(size_t)other * LRCSI_MESHLET_FACETS] != own ||
+                                     !lrcsi_meshlet_alike(value, other)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Marks events among the plain edges (scene/neighbours.h): two facets continue each other across
+   such an edge if both can hide others and face the same way. A meshlet whose facets all have the
+   same value as those around it has none. */
+static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
+{
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t m = 0; m < p->meshlets.count; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        uint32_t end = lrcsi_meshlet_end(start, count);
+        int alike = lrcsi_meshlet_alike(cast, m);
+        for (uint32_t f = start; f < end && !alike; f++) {
+            for (int k = 0; k < 3; k++) {
+                uint32_t other = p->neighbours.facet[f].corner[k];
+                if (other >= start && other < end && cast[f] != 0 && cast[other] != cast[f]) {
+                    mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
+                }
+            }
+        }
+        if (alike && meshlet_surrounded(p, cast, m)) {
+            continue;
+        }
+        for (uint32_t i = p->meshlets.meshlet[m].first_side;
+             i < p->meshlets.meshlet[m + 1].first_side; i++) {
+            const lrcsi_meshlet_side *side = &p->meshlets.side[i];
+            if (cast[side->facet] != cast[side->other]) {
+                mark_edge_event(mark, side->edge);
+            }
+        }
+    }
+}
+
+size_t lrcsi_events_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(mark_words(prepared), sizeof(uint32_t)),
+                          lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
+}
+
+/* 1. Takes room for as many events as there are edges. 2. Marks events among plain edges, then
+   among irregular ones. 3. Lists the marked edges, and returns the room that is not needed. */
+int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
+                      lrcsi_events *events)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_neighbours *neighbours = &p->neighbours;
+    size_t start = work->used;
+    uint32_t *mark = lrcsi_work_take_zero(work, mark_words(p), sizeof *mark);
+    size_t end = work->used;
+    uint32_t *edge = lrcsi_work_take(work, p->topology.edge_count, sizeof *edge);
+    if (!mark || !edge) {
+        work->used = start;
+        return LRCS_E_MEMORY;
+    }
+    mark_plain(p, cast, mark);
+    for (uint32_t i = 0; i < neighbours->irregular_count; i++) {
+        uint32_t pair[2];
+        if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, pair) ==
+            LRCSI_EDGE_EVENT) {
+            mark_edge_event(mark, neighbours->irregular[i]);
+        }
+    }
+    events->count = 0;
+    for (size_t w = 0; w < mark_words(p); w++) {
+        uint32_t e = (uint32_t)(w * MARK_BITS);
+        for (uint32_t left = mark[w]; left != 0; left >>= 1) {
+            edge[events->count] = e++;
+            events->count += left & 1;
+        }
+    }
+    work->used = end;
+    events->edge = lrcsi_work_take(work, events->count, sizeof *edge);
+    return LRCS_OK;
+}
+
+/* --- groups ----------------------------------------------------------------------------------- */
+
+/* The entry of a facet in group[]: in a meshlet whose facets are all joined, that of the first one.
+ */
+static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *joinable,
+                                   uint32_t facet)
+{
+    uint32_t meshlet = facet / LRCSI_MESHLET_FACETS;
+    return lrcsi_events_joined(p, joinable, meshlet) == LRCSI_JOINED_ALL
+               ? meshlet * LRCSI_MESHLET_FACETS
+               : facet;
+}
+
+/* Sets group[facet] to the first facet of its group. Groups are named by their first facets, which
+   are in this meshlet or in earlier meshlets that are finished already. */
+static void groups_name(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
+{
+    uint32_t count = p->scene->facet_count;
+    for (uint32_t m = 0; m < p->meshlets.count; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        int joined = lrcsi_events_joined(p, joinable, m);
+        if (joined == LRCSI_JOINED_SOME) {
+            for (uint32_t f = start; f < lrcsi_meshlet_end(start, count); f++) {
+                group[f] = group[group[f]];
+            }
+            continue;
+        }
+        uint32_t step = joined == LRCSI_JOINED_NONE;
+        uint32_t root = group[group[start]];
+        for (uint32_t i = 0; i < LRCSI_MESHLET_FACETS; i++) {
+            group[start + i] = root + step * i;
+        }
+    }
+}
+
+/* 1. Meshlet by meshlet, joins the facets of a meshlet among themselves, and then to earlier
+   meshlets, while they are in the cache. The groups do not depend on the order. A meshlet that is
+   joined as a whole is represented by its first facet. It is joined to the meshlets to which its
+   sides lead; side by side only if one of these is joined in part. 2. Joins facets across irregular
+   edges. 3. Names the groups. */
+void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_meshlets *meshlets = &p->meshlets;
+    for (uint32_t m = 0; m < meshlets->count; m++) {
+        const uint32_t start = m * LRCSI_MESHLET_FACETS;
+        const uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+        const int joined = lrcsi_events_joined(p, joinable, m);
+        const int alike = lrcsi_meshlet_alike(joinable, m);
+        int by_sides = joined == LRCSI_JOINED_SOME;
+        group[start] = start;
+        for (uint32_t f = start; f < end && joined == LRCSI_JOINED_SOME; f++) {
+            group[f] = alike ? start + meshlets->first[f] : f;
+            for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
+                uint32_t other = p->neighbours.facet[f].corner[k];
+                if (other >= start && other < f && joinable[other] == joinable[f]) {
+                    lrcsi_disjoint_union(group, other, f);
+                }
+            }
+        }
+        for (uint32_t i = meshlets->first_link[m];
+             i < meshlets->first_link[m + 1] && joined == LRCSI_JOINED_ALL && !by_sides; i++) {
+            uint32_t other = meshlets->link[i];
+            int its = other < m ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
+            by_sides = its == LRCSI_JOINED_SOME;
+            if (its == LRCSI_JOINED_ALL &&
+                joinable[(size_t)other * LRCSI_MESHLET_FACETS] == joinable[start]) {
+                lrcsi_disjoint_union(group, other * LRCSI_MESHLET_FACETS, start);
+            }
+        }
+        for (uint32_t i = meshlets->meshlet[m].first_side;
+             by_sides && i < meshlets->meshlet[m + 1].first_side; i++) {
+            const lrcsi_meshlet_side *side = &meshlets->side[i];
+            if (side->other < side->facet && joinable[side->facet] != 0 &&
+                joinable[side->other] == joinable[side->facet]) {
+                lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
+                                     group_entry(p, joinable, side->facet));
+            }
+        }
+    }
+    for (uint32_t i = 0; i < p->neighbours.irregular_count; i++) {
+        uint32_t pair[2];
+        if (lrcsi_edge_kind_of(view, p->neighbours.irregular[i], LRCS_NONE, pair) ==
+                LRCSI_EDGE_JOINS &&
+            joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
+            lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]),
+                                 group_entry(p, joinable, pair[1]));
+        }
+    }
+    groups_name(p, joinable, group);
+}

@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: MIT */
+/* The buckets of a grid, and how items are sorted into them: counted first, then filled, in item
+   order. Nothing is decided about visibility. */
+#include "visibility/index/grid.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/range.h"
+#include "base/work.h"
+#include "visibility/index/event.h"
+#include "visibility/index/lists.h"
+
+/* The largest number of buckets along a side. */
+#define MAX_SIZE 2048
+/* Buckets to be read are marked by one bit each. */
+#define NEEDED_BITS 32u
+
+/* --- the grid --------------------------------------------------------------------------------- */
+
+/* The number of buckets along a side of a square grid of about this many. */
+static uint32_t grid_size(size_t buckets)
+{
+    return (uint32_t)lrcsi_min(MAX_SIZE, lrcsi_max(1, sqrt((double)buckets)));
+}
+
+size_t lrcsi_grid_need(size_t buckets, size_t entries)
+{
+    size_t size = grid_size(buckets);
+    return lrcsi_work_add(lrcsi_work_bytes(size * size + 1, sizeof(uint32_t)),
+                          lrcsi_work_bytes(entries, sizeof(uint32_t)));
+}
+
+size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t size = grid_size(facets);
+    size_t words = (size + NEEDED_BITS - 1) / NEEDED_BITS;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * size, sizeof(uint32_t)),
+                                 lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_BUCKETS * facets));
+}
+
+/* The window: what the view's own has in common with the projection of the box around the bulk. No
+   proof rests on where it is. */
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t buckets)
+{
+    lrcsi_grid grid = {.view = view, .size = grid_size(buckets)};
+    const double *bulk = view->prepared->bulk;
+    for (int k = 0; k < 2; k++) {
+        const double *row = view->R[k];
+        double half = fabs(row[0]) * bulk[0] + fabs(row[1]) * bulk[1] + fabs(row[2]) * bulk[2];
+        double low = lrcsi_max(view->low[k], -half);
+        double high = lrcsi_min(view->low[k] + view->side, half);
+        grid.low[k] = low * view->scale;
+        grid.side = lrcsi_max(grid.side, (high - low) * view->scale);
+    }
+    grid.buckets_per_unit = grid.side > 0 ? grid.size / grid.side : 0;
+    grid.last = grid.size - 1.0;
+    return grid;
+}
+
+/* Doubles the size of the buckets; the grid has no lists then. Halving the scale is exact, except
+   for numbers so small that they are in bucket 0 in any case: the new bucket of a coordinate is
+   half the old one, rounded down. */
+static void grid_coarsen(lrcsi_grid *grid)
+{
+    grid->first = grid->item = NULL;
+    grid->size = (grid->size + 1) / 2;
+    grid->buckets_per_unit /= 2;
+    grid->last = grid->size - 1.0;
+}
+
+static size_t grid_count(const lrcsi_grid *grid)
+{
+    return (size_t)grid->size * grid->size;
+}
+
+static int grid_start(lrcsi_grid *grid, lrcs_work *work)
+{
+    grid->first = lrcsi_work_take_zero(work, grid_count(grid) + 1, sizeof *grid->first);
+    return grid->first ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+static int grid_room(lrcs_work *work, lrcsi_grid *grid)
+{
+    return lrcsi_lists_room(grid->first, grid_count(grid), LRCS_NONE - 1, work, &grid->item);
+}
+
+/* Counts or lists an item in a row of buckets. Returns how many they are. */
+static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
+{
+    lrcsi_lists_put(grid->first + (size_t)y * grid->size, grid->item, x0, x1, item);
+    return x1 - x0;
+}
+
+/* To the errors of the sides are added the rounding errors of what is computed from them (points at
+   t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate between the
+   side's and the window's; and the rounding of boxes by 2^-24 of the latter. */
+void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
+                      lrcsi_view_segment *side)
+{
+    const lrcsi_view_vertex *point = grid->view->point;
+    double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
+    rounding += near * grid->view->scale;
+    for (int k = 0; k < (count == 2 ? 1 : count); k++) {
+        side[k] = lrcsi_view_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
+                                          grid->view->scale, rounding);
+    }
+}
+
+lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
+                               uint32_t y)
+{
+    double bottom = y > 0 ? grid->low[1] + y / grid->buckets_per_unit : -HUGE_VAL;
+    double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->buckets_per_unit : HUGE_VAL;
+    double x[2];
+    lrcsi_grid_rect buckets = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
+    if (lrcsi_view_segments_range(side, sides, bottom, top, x)) {
+        buckets.x0 = lrcsi_grid_bucket(grid, x[0], 0);
+        buckets.x1 = (uint16_t)(lrcsi_grid_bucket(grid, x[1], 0) + 1);
+    }
+    return buckets;
+}
+
+/* Counts or lists the edges. Returns the number of entries, or of those up to the first edge with
+   which they are more than `most`. */
+static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count, uint64_t most)
+{
+    const lrcsi_view *view = grid->view;
+    uint64_t listed = 0;
+    for (uint32_t i = 0; i < count && listed <= most; i++) {
+        const lrcsi_edge *e = &view->prepared->topology.edge[edge[i]];
+        const uint32_t ends[2] = {e->low, e->high};
+        const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
+        const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+        const int one_row = buckets.y1 - buckets.y0 == 1;
+        lrcsi_view_segment segment;
+        if (!one_row) {
+            lrcsi_grid_sides(grid, ends, 2, 0, &segment);
+        }
+        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+            const lrcsi_grid_rect row = one_row ? buckets : lrcsi_grid_row(grid, &segment, 1, y);
+            listed += grid_put(grid, y, row.x0, row.x1, i);
+        }
+    }
+    return listed;
+}
+
+/* In one bucket each edge is listed once: that is not too often. */
+int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
+                     lrcsi_grid *grid)
+{
+    size_t mark = work->used;
+    most = most > count ? most : count;
+    int status = grid_start(grid, work);
+    while (status == LRCS_OK && edges_put(grid, edge, count, most) > most) {
+        work->used = mark;
+        grid_coarsen(grid);
+        status = grid_start(grid, work);
+    }
+    status = status == LRCS_OK ? grid_room(work, grid) : status;
+    if (status == LRCS_OK) {
+        edges_put(grid, edge, count, most);
+        lrcsi_lists_finish(grid->first, grid_count(grid));
+    }
+    return status;
+}
+
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* In one bucket each facet is listed once, so that this ends. */
+int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
+{
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    for (int fits = 0;; fits++) {
+        uint64_t filled = 0;
+        uint64_t facets = 0;
+        for (uint32_t f = 0; f < count; f++) {
+            if (boxes->state[f / LRCSI_MESHLET_FACETS] != LRCSI_BOXES_FACETS) {
+                f += LRCSI_MESHLET_FACETS - 1;
+            } else if (lrcsi_view_casts(grid->view, f)) {
+                lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
+                filled += (uint64_t)(buckets.x1 - buckets.x0) * (buckets.y1 - buckets.y0);
+                facets++;
+            }
+        }
+        if (filled <= LRCSI_GRID_FACET_BUCKETS * facets) {
+            return fits > 0;
+        }
+        grid_coarsen(grid);
+    }
+}
+
+/* The buckets whose lists will be read, one bit each; each row begins with a new word. bit NULL:
+   all buckets. Facets that meet none of these buckets are not listed. */
+typedef struct needed_buckets {
+    uint32_t *bit;
+    size_t words; /* of a row */
+} needed_buckets;
+
+/* The bits of one word of a row for buckets x0 .. x1 - 1. */
+static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
+{
+    uint32_t bits = ~(uint32_t)0;
+    if (word == x0 / NEEDED_BITS) {
+        bits &= ~(uint32_t)0 << x0 % NEEDED_BITS;
+    }
+    if (word == (x1 - 1) / NEEDED_BITS) {
+        bits &= ~(uint32_t)0 >> (NEEDED_BITS - 1 - (x1 - 1) % NEEDED_BITS);
+    }
+    return bits;
+}
+
+/* Marks these buckets. */
+static void needed_mark(const needed_buckets *needed, lrcsi_grid_rect buckets)
+{
+    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
+    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
+            needed->bit[y * needed->words + word] |= needed_bits(word, buckets.x0, buckets.x1);
+        }
+    }
+}
+
+/* Is any of these buckets marked? */
+static int needed_any(needed_buckets needed, lrcsi_grid_rect buckets)
+{
+    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
+    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
+            if ((needed.bit[y * needed.words + word] & needed_bits(word, buckets.x0, buckets.x1)) !=
+                0) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Marks the buckets of the readers' boxes. */
+static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
+                       const lrcsi_grid_readers *readers, lrcs_work *work, needed_buckets *needed)
+{
+    *needed = (needed_buckets){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
+    if (!readers) {
+        return LRCS_OK;
+    }
+    needed->bit = lrcsi_work_take_zero(work, needed->words * grid->size, sizeof *needed->bit);
+    const lrcs_prepared *p = grid->view->prepared;
+    for (uint32_t m = 0; m < p->meshlets.count && needed->bit; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+        if (boxes->state[m] == LRCSI_BOXES_NONE) {
+            continue;
+        }
+        if (readers->region && lrcsi_events_joined(p, readers->joinable, m) == LRCSI_JOINED_ALL) {
+            end = start + 1; /* the others are not the first of their region, nor undecided */
+        }
+        for (uint32_t f = start; f < end; f++) {
+            if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
+                lrcsi_view_casts(grid->view, f)) {
+                lrcsi_boxes_open(boxes, m);
+                needed_mark(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f)));
+            }
+        }
+    }
+    return needed->bit ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* Lists the facets that meet buckets to be read, in order, and makes their boxes. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
+static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, needed_buckets needed,
+                         lrcs_work *work, uint32_t **facet, uint32_t *selected)
+{
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    size_t mark = work->used;
+    uint32_t *list = lrcsi_work_take(work, count, sizeof *list);
+    uint32_t listed = 0;
+    for (uint32_t start = 0; start < count && list; start += LRCSI_MESHLET_FACETS) {
+        uint32_t meshlet = start / LRCSI_MESHLET_FACETS;
+        if (boxes->state[meshlet] == LRCSI_BOXES_NONE ||
+            (needed.bit &&
+             !needed_any(needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
+            continue;
+        }
+        lrcsi_boxes_open(boxes, meshlet);
+        uint32_t end = lrcsi_meshlet_end(start, count);
+        for (uint32_t f = start; f < end; f++) {
+            if (lrcsi_view_casts(grid->view, f) &&
+                (!needed.bit ||
+                 needed_any(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f))))) {
+                list[listed++] = f;
+            }
+        }
+    }
+    if (!list) {
+        return LRCS_E_MEMORY;
+    }
+    work->used = mark; /* the list is already stored here */
+    *facet = lrcsi_work_take(work, listed, sizeof *list);
+    *selected = listed;
+    return LRCS_OK;
+}
+
+/* Counts the entries of the selected facets, or writes them. Returns the number of entries. */
+static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t selected)
+{
+    uint64_t listed = 0;
+    for (uint32_t i = 0; i < selected; i++) {
+        lrcsi_grid_rect buckets =
+            lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
+        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+            listed += grid_put(grid, y, buckets.x0, buckets.x1, facet[i]);
+        }
+    }
+    return listed;
+}
+
+/* 1. Mark the buckets that will be read. 2. Select the facets that meet them. 3. Count the facets
+   of each bucket; if there are too many entries, make the buckets larger and start again. 4. Fill
+   the lists. */
+int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
+                      lrcs_work *work, lrcsi_grid *grid)
+{
+    size_t mark = work->used;
+    const lrcsi_view *view = like->view;
+    uint64_t most = LRCSI_GRID_FACET_BUCKETS * ((uint64_t)view->front + view->back);
+    lrcsi_grid g = *like;
+    needed_buckets needed;
+    uint32_t *facet = NULL;
+    uint32_t selected = 0;
+    int status;
+    g.first = g.item = NULL;
+    for (;;) {
+        status = needed_make(&g, boxes, readers, work, &needed);
+        status =
+            status == LRCS_OK ? facets_select(&g, boxes, needed, work, &facet, &selected) : status;
+        status = status == LRCS_OK ? grid_start(&g, work) : status;
+        g.boxes = *boxes;
+        if (status != LRCS_OK || facets_put(&g, facet, selected) <= most) {
+            break;
+        }
+        work->used = mark;
+        grid_coarsen(&g);
+    }
+    status = status == LRCS_OK ? grid_room(work, &g) : status;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    facets_put(&g, facet, selected);
+    lrcsi_lists_finish(g.first, grid_count(&g));
+    *grid = g;
+    return LRCS_OK;
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* Tries a few planes for each pair of parts; view/separation.c proves what they decide. It does not
+   look for parts that are far from one another in projection.
+
+   Let the part in front have n . x >= c and the part behind n . x <= c, with n . d >= 0. If a point
+   q of the former and a point p of the latter lie on one line along d, q = p + t d, then
+   t n . d >= 0: q is nearer the laser than p, or both lie in a plane that contains d. So p is
+   hidden if and only if some q has the same projection.
+
+   Where both touch the plane, this is proved except for points within rounding of it: those of the
+   part in front that may be hidden, and those of the part behind that a point may seem to hide
+   although it is behind them (the same proof, with the roles exchanged). On a part without curved
+   surfaces a facet is the true surface. On a curved part such a plane is used only across its own
+   axis, and if its zones are level: then a facet and its patch extend over the same heights, and
+   the area of the true surface in a slab is known (lrcsi_body_slab). */
+#include "visibility/proximity/depth_order.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/range.h"
+#include "base/vec3.h"
+
+/* The axes of a part across which a plane may be tangent to it: one of a body of revolution, three
+   of a box or a plate. */
+static int axes_count(const lrcsi_body *body)
+{
+    return !body->part->rigid ? 0 : body->curved ? 1 : 3;
+}
+
+/* Is the area of a part's surface in a slab across the axis of `own` known? */
+static int has_slab(const lrcsi_body *body, const lrcsi_body *own)
+{
+    return body->part->bounds.reach == 0 || (body->curved && body == own && body->beyond == 0);
+}
+
+static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],
+                                    double level, double height)
+{
+    return (lrcsi_order_proof){1,
+                               {sign * n[0], sign * n[1], sign * n[2]},
+                               level,
+                               body->curved ? lrcsi_body_slab(body, height) : 0};
+}
+
+/* Tries the plane across one axis of `own`, on the side that does not face away from the laser. */
+static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
+                      const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
+{
+    double sign = lrcsi_vec3_dot(axis, d) < 0 ? -1 : 1;
+    const double n[3] = {sign * axis[0], sign * axis[1], sign * axis[2]};
+    lrcsi_gap gap = lrcsi_gap_make(front, back, d, n, 1);
+    if (gap.separates) {
+        order->front_is_free = order->back_by_outline = proof_make(front, 1, n, -HUGE_VAL, 0);
+    }
+    if (gap.is_zero && has_slab(front, own)) {
+        order->front_is_free = proof_make(front, 1, n, gap.low + gap.height, gap.height);
+    }
+    if (gap.is_zero && has_slab(back, own)) {
+        double high = lrcsi_body_support_all(back, n);
+        order->back_by_outline = proof_make(back, -1, n, gap.height - high, gap.height);
+    }
+}
+
+lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_body *back,
+                                         const double d[3])
+{
+    const lrcsi_body *const own[2] = {front, back};
+    lrcsi_depth_order order = {{.known = 0}, {.known = 0}};
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0;
+             k < axes_count(own[i]) && !(order.front_is_free.known && order.back_by_outline.known);
+             k++) {
+            order_try(front, back, d, own[i], own[i]->part->axis[2 - k], &order);
+        }
+    }
+    return order;
+}
+
+/* The heights n . x of a facet's points are linear: at most the fraction 2 (level - low) / (high -
+   low) of its area is below the level. */
+double lrcsi_order_unproved(const lrcsi_order_proof *proof, const lrcs_prepared *p, uint32_t facet)
+{
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        double height = lrcsi_vec3_dot(proof->n, lrcsi_prepared_corner(p, facet, k));
+        low = lrcsi_min(low, height);
+        high = lrcsi_max(high, height);
+    }
+    double below = proof->level + 16 * LRCSI_U - low;
+    if (!(below > 0)) {
+        return 0;
+    }
+    double area = 0.5 * p->normal[facet].length;
+    double fraction = 2 * (below + 16 * LRCSI_U) / (high - low) + proof->slab / area;
+    return fraction < 1 ? fraction * (1 + 16 * LRCSI_U) : 1;
+}

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT */
+/* Cuts facets with rectangles about event edges. It does not decide how wide these have to be
+   (visibility/proximity/proximity_band.c). */
+#include "visibility/proximity/edge_rectangle.h"
+
+#include <math.h>
+
+#include "base/range.h"
+
+double lrcsi_edge_rectangle_facet_err(const lrcsi_view *view, uint32_t facet)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    double err = 0;
+    for (int k = 0; k < 3; k++) {
+        err = lrcsi_max(err, view->point[corner[k]].err);
+    }
+    return LRCSI_EDGE_RECTANGLE_ERR * err;
+}
+
+/* The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
+   the facet is no farther from a than the facet's farthest corner plus the slack and the errors:
+   t length is at most that. So the error of end b is multiplied by t. The errors of both ends turn
+   the edge by at most an angle of 2 (first + last) / length. */
+lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t facet,
+                                               const lrcsi_edge *edge, double slack)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    lrcsi_edge_rectangle box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
+    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
+        box.a = view->point[edge->high].x;
+        box.b = view->point[edge->low].x;
+        box.reverse = 1;
+    }
+    box.along[0] = box.b[0] - box.a[0];
+    box.along[1] = box.b[1] - box.a[1];
+    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
+    double first = LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_point_err(box.a);
+    double last = LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_point_err(box.b);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+    }
+    box.err = lrcsi_edge_rectangle_facet_err(view, facet) + first;
+    box.before = slack + box.err;
+    box.end = box.before + last;
+    box.has_sides = length > 2 * (first + last);
+    if (box.has_sides) {
+        box.along[0] /= length;
+        box.along[1] /= length;
+        for (int k = 0; k < 3; k++) {
+            box.across[k] = box.along[0] * view->R[1][k] - box.along[1] * view->R[0][k];
+        }
+        box.rotation_err = 2 * (first + last) / length;
+        box.err += last * lrcsi_min(1, 2 * (far + box.before) / length);
+        box.half_width = slack + box.err;
+    } else {
+        box.along[0] = 1;
+        box.along[1] = 0;
+        box.end += length;
+        box.half_width = box.before = box.end;
+        box.err = box.end;
+    }
+    return box;
+}
+
+/* Do all of these points lie beyond one side of the rectangle about an edge? */
+static int points_apart(const double *const point[], int count, const lrcsi_edge_rectangle *box)
+{
+    int left = 0;
+    int right = 0;
+    int before = 0;
+    int beyond = 0;
+    for (int k = 0; k < count; k++) {
+        const double *x = point[k];
+        const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
+        const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
+        double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
+        left += across > box->half_width;
+        right += across < -box->half_width;
+        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
+        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
+    }
+    return left == count || right == count || before == count || beyond == count;
+}
+
+int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
+                               const double q[3])
+{
+    const double *const end[2] = {p, q};
+    return !points_apart(end, 2, box);
+}
+
+lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
+                                       const lrcsi_edge_rectangle *box)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
+                                    view->point[corner[2]].x};
+    lrcsi_slice slice = {.count = 0};
+    if (points_apart(point, 3, box)) {
+        return slice;
+    }
+    const double *along = box->along;
+    const double left[3] = {-along[1], along[0], 0};
+    const double back[3] = {-along[0], -along[1], 0};
+    const double right[3] = {along[1], -along[0], 0};
+    slice = lrcsi_slice_start(point[0], point[1], point[2]);
+    lrcsi_slice_cut(&slice, left, box->a, box->half_width);
+    lrcsi_slice_cut(&slice, right, box->a, box->half_width);
+    lrcsi_slice_cut(&slice, along, box->b, box->end);
+    lrcsi_slice_cut(&slice, back, box->a, box->before);
+    return slice;
+}
+
+lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side)
+{
+    double outward = box->reverse ? -side : side;
+    const double away[3] = {outward * box->along[1], -outward * box->along[0], 0};
+    lrcsi_slice_cut(&slice, away, box->a, box->err);
+    return slice;
+}
+
+/* Let q be a point of the edge and y one of the facet, at most `slack` apart in projection, q - y =
+   w - t d with |w| <= slack and w perpendicular to d, and n the facet's unit normal, n . d > 0. If
+   both ends of the edge are more than 3 slack below the plane, 3 slack < -n . (q - y) = t n . d -
+   n . w <= t + slack, so t > 2 slack: q is at least 2 slack behind y. */
+int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
+                                double slack)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_normal *n = &p->normal[facet];
+    const double *a = lrcsi_prepared_corner(p, facet, 0);
+    const uint32_t end[2] = {edge->low, edge->high};
+    double err = lrcsi_edge_rectangle_facet_err(view, facet);
+    int behind = view->facing[facet] != 0;
+    for (int i = 0; i < 2 && behind; i++) {
+        double height = 0;
+        for (int k = 0; k < 3; k++) {
+            height += view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
+        }
+        double end_err = LRCSI_EDGE_RECTANGLE_ERR * view->point[end[i]].err;
+        behind = height < -(3 * slack + err + end_err) * n->length;
+    }
+    return behind;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* Where to look for event edges near a facet in projection: in a box, and in rows of the grid
+   between the facet's sides, whose errors include the largest relevant distance. Beyond a line
+   parallel to one of the sides event edges are too far away. */
+#ifndef LRCSI_EDGE_SEARCH_H
+#define LRCSI_EDGE_SEARCH_H
+
+#include "visibility/index/grid.h"
+#include "visibility/proximity/edge_rectangle.h"
+
+typedef struct lrcsi_edge_search {
+    double low[3], high[3];
+    lrcsi_view_segment side[3];
+    double outward[3][2], limit[3]; /* beyond line k outward[k] . x > limit[k], errors included */
+    int first;                      /* the line to try first: the one that excluded the last edge */
+} lrcsi_edge_search;
+
+/* For edges at a distance of at most `near` from a facet. */
+lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_grid *grid,
+                                         uint32_t facet, double near);
+
+/* outward . x of a point, with `err` times its position's error added. */
+static inline double lrcsi_edge_search_height(const lrcsi_edge_search *search, int side,
+                                              const double x[3], double err)
+{
+    return search->outward[side][0] * x[0] + search->outward[side][1] * x[1] +
+           err * lrcsi_view_point_err(x);
+}
+
+/* Is the whole edge a b, in view coordinates, beyond one of the lines? */
+static inline int lrcsi_edge_search_excludes(lrcsi_edge_search *search, const double a[3],
+                                             const double b[3])
+{
+    int side = search->first;
+    for (int i = 0; i < 3; i++) {
+        if (lrcsi_edge_search_height(search, side, a, -LRCSI_EDGE_RECTANGLE_ERR) >
+                search->limit[side] &&
+            lrcsi_edge_search_height(search, side, b, -LRCSI_EDGE_RECTANGLE_ERR) >
+                search->limit[side]) {
+            search->first = side;
+            return 1;
+        }
+        side = side < 2 ? side + 1 : 0;
+    }
+    return 0;
+}
+
+#endif

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT */
+/* Support points of true shapes, and the areas between their outlines and an edge. outline.h proves
+   what these areas bound. Every area is enlarged by the errors of the points that it is computed
+   from. */
+#include "visibility/proximity/outline.h"
+
+#include <math.h>
+
+#include "base/vec3.h"
+#include "mesh/shape/revolution.h"
+#include "scene/proximity.h"
+#include "view/separation.h"
+
+/* The number of support points on either side of the one in the direction of the edge's normal. */
+#define POINTS_SIDE 4
+#define POINTS      (2 * POINTS_SIDE + 1)
+/* Steps of the bisection for the largest slope. */
+#define BISECTIONS 20
+/* An edge that is shorter than this many Hausdorff distances is not used. */
+#define LENGTH_MIN 8.0
+/* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
+   to some 30 u. */
+#define OPENING_COS_MIN 1e-6
+/* The square root of 2, rounded up. */
+#define ROOT_2 1.4143
+/* More than the relative rounding error of a sum of areas: POINTS terms of some 10 operations each.
+ */
+#define ROUNDING (1 + 0x1p-40)
+
+lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *part = &p->scene->part[index];
+    lrcsi_outline o = {.part = part};
+    if (!part->rigid || !(part->bounds.reach > 0) || part->kind == LRCS_SHAPE_DISC ||
+        lrcsi_proximity_openings(p, index) > 1) {
+        return o;
+    }
+    lrcsi_revolution shape = lrcsi_revolution_make(&part->shape, &part->divisions);
+    if (shape.step > 0 && !shape.level_zones) {
+        return o; /* its vertices are not at the true heights */
+    }
+    double far = 0;
+    o.known = 1;
+    o.vertex_ratio = shape.vertex_ratio;
+    o.solid = lrcsi_body_solid(p, index);
+    for (int k = 0; k < 3; k++) {
+        o.origin[k] = ldexp(part->origin[k], -p->exponent);
+        far += fabs(o.origin[k] - p->origin[k]) + fabs(o.origin[k]);
+    }
+    double x[3];
+    lrcsi_view_coordinates(view, o.origin, x);
+    for (int i = 0; i < 2; i++) {
+        o.centre[i] = x[i];
+        for (int k = 0; k < 3; k++) {
+            o.axis[k][i] = lrcsi_vec3_dot(view->R[i], part->axis[k]);
+        }
+    }
+    o.size = 2 * o.vertex_ratio * lrcsi_max(o.solid.radius, o.solid.radius2) + o.solid.length;
+    o.k = p->proximity.hausdorff[index];
+    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->bounds.position_err, -p->exponent);
+    return o;
+}
+
+/* The vertices of a solid of facets are those of the true one, stretched across the axis by
+   vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
+   surface differs from its own by the rounding of its corners. Both the true solid and that of the
+   facets leave open a distance of e size / height; the first of the two changes x, the second y
+   and the depth of y. */
+int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
+                           double *err)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *own = &p->scene->part[p->scene->facet_part[facet]];
+    const lrcsi_normal *normal = &p->normal[facet];
+    double n[3];
+    double from[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = normal->high[k] / normal->length;
+    }
+    lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), o->origin, from);
+    double up[3];
+    double down[3];
+    for (int k = 0; k < 3; k++) {
+        up[k] = lrcsi_vec3_dot(o->part->axis[k], n);
+        down[k] = -up[k];
+    }
+    double at = lrcsi_vec3_dot(from, n);
+    double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
+    double e = 2 * o->err + 64 * LRCSI_U * far;
+    if (own->bounds.reach > 0) {
+        e += own->bounds.normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
+    }
+    double lowest[3];
+    double highest[3];
+    lrcsi_support_point(&o->solid, up, highest);
+    lrcsi_support_point(&o->solid, down, lowest);
+    double behind = lrcsi_vec3_dot(lowest, down);
+    const double wider[3] = {o->vertex_ratio * down[0], o->vertex_ratio * down[1], down[2]};
+    lrcsi_support_point(&o->solid, wider, lowest);
+    behind = lrcsi_max(behind, lrcsi_vec3_dot(lowest, wider)) - at;
+    double height = at + lrcsi_vec3_dot(highest, up) - e;
+    *err = height > 0 ? 4 * e * (1 + o->size / height) : HUGE_VAL;
+    return view->facing[facet] > 0 && behind <= e && *err <= 0.5 * o->k;
+}
+
+/* The opening is at z = 0, its normal along -z. */
+int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int facing)
+{
+    double cosine = -lrcsi_vec3_dot(o->part->axis[2], view->unit);
+    return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
+}
+
+/* An edge, and the coordinates of support points about it. */
+typedef struct edge_frame {
+    const lrcsi_outline *outline;
+    const double *a;
+    double along[2], outward[2], length;
+} edge_frame;
+
+/* A support point: coordinates t and depth, and the slope of its tangent. */
+typedef struct outline_point {
+    double t, depth, slope;
+} outline_point;
+
+/* The point of the true solid that is farthest in the direction outward + slope along of the view
+   plane, in projection; the slope of its tangent is the same. */
+static outline_point outline_point_at(const edge_frame *edge, double slope)
+{
+    const lrcsi_outline *o = edge->outline;
+    const double w[2] = {edge->outward[0] + slope * edge->along[0],
+                         edge->outward[1] + slope * edge->along[1]};
+    double n[3];
+    double x[3];
+    double off[2];
+    for (int k = 0; k < 3; k++) {
+        n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
+    }
+    lrcsi_support_point(&o->solid, n, x);
+    for (int i = 0; i < 2; i++) {
+        off[i] = o->centre[i] + x[0] * o->axis[0][i] + x[1] * o->axis[1][i] + x[2] * o->axis[2][i];
+        off[i] -= edge->a[i];
+    }
+    return (outline_point){edge->along[0] * off[0] + edge->along[1] * off[1],
+                           -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), slope};
+}
+
+/* The slope, 0 .. 1 towards the given side (1: towards b), at which the support point is as far as
+   `until`; 1 if it is not that far for any of these. */
+static double slope_until(const edge_frame *edge, int side, double until)
+{
+    double low = 0;
+    double high = 1;
+    if (side * outline_point_at(edge, 0).t >= side * until) {
+        return 0;
+    }
+    for (int i = 0; i < BISECTIONS; i++) {
+        /* slopes of all magnitudes: the mean of logarithms first. Any slope serves; a better one
+           gives narrower bounds */
+        double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
+        if (side * outline_point_at(edge, side * middle).t >= side * until) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
+/* The integral from t0 to t1 of max(0, v), v linear with these values at the ends. */
+static double integral_positive(double t0, double t1, double v0, double v1)
+{
+    if (!(t1 > t0) || (v0 <= 0 && v1 <= 0)) {
+        return 0;
+    }
+    if (v0 >= 0 && v1 >= 0) {
+        return 0.5 * (t1 - t0) * (v0 + v1);
+    }
+    double v = lrcsi_max(v0, v1);
+    return 0.5 * (t1 - t0) * v * (v / (v - lrcsi_min(v0, v1)));
+}
+
+/* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
+   Returns 0 if the polygon is too steep. */
+static int areas_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
+                     lrcsi_outline_areas *areas)
+{
+    double beyond = 2 * edge->outline->k;
+    double low = lrcsi_max(p->t, -beyond);
+    double high = lrcsi_min(q->t, edge->length + beyond);
+    if (!(high > low)) {
+        return 1;
+    }
+    double chord = (q->depth - p->depth) / (q->t - p->t);
+    if (!(fabs(chord) <= 1)) { /* all tangents are less steep */
+        return 0;
+    }
+    double t0 = lrcsi_max(p->t, 0);
+    double t1 = lrcsi_min(q->t, edge->length);
+    areas->gain +=
+        integral_positive(t0, t1, p->depth + chord * (t0 - p->t), p->depth + chord * (t1 - p->t));
+    double turn = q->slope - p->slope;
+    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
+    meet = lrcsi_min(high, lrcsi_max(low, meet));
+    areas->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
+                                     -(p->depth + p->slope * (meet - p->t)));
+    areas->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
+                                     -(q->depth + q->slope * (high - q->t)));
+    return 1;
+}
+
+lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
+                                             const double b[3], int side)
+{
+    const lrcsi_outline_areas unknown = {HUGE_VAL, HUGE_VAL, 0};
+    edge_frame edge = {.outline = o, .a = a};
+    const double ab[2] = {b[0] - a[0], b[1] - a[1]};
+    edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
+    if (!o->known || side == 0 || !(edge.length > LENGTH_MIN * o->k)) {
+        return unknown;
+    }
+    edge.along[0] = ab[0] / edge.length;
+    edge.along[1] = ab[1] / edge.length;
+    edge.outward[0] = side * edge.along[1];
+    edge.outward[1] = -side * edge.along[0];
+    double before = slope_until(&edge, -1, -2 * o->k);
+    double after = slope_until(&edge, 1, edge.length + 2 * o->k);
+    lrcsi_outline_areas areas = {0, 0, 0};
+    outline_point last = outline_point_at(&edge, -before);
+    if (last.t > -2 * o->k) { /* the end of K, or too steep */
+        return unknown;
+    }
+    for (int i = 1; i < POINTS; i++) {
+        double steps = (double)i / POINTS_SIDE - 1; /* -1 .. 1 */
+        outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
+        if (!areas_add(&edge, &last, &next, &areas)) {
+            return unknown;
+        }
+        last = next;
+    }
+    if (last.t < edge.length + 2 * o->k) {
+        return unknown;
+    }
+    areas.width = ROOT_2 * (edge.length + 4 * o->k);
+    double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
+    areas.gain = (areas.gain + err * areas.width) * ROUNDING;
+    areas.loss = (areas.loss + err * areas.width) * ROUNDING;
+    return areas;
+}

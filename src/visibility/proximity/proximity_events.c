@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* Lists event edges part by part: an edge that two parts share may be one for either, or for both.
+   What they change is not decided here (visibility/proximity/proximity_band.c). */
+#include "visibility/proximity/proximity_events.h"
+
+#include "base/work.h"
+#include "visibility/index/event.h"
+
+/* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
+   cells. */
+#define EVENT_CELLS 4u
+/* Room for the entries of edges in cells. */
+#define EVENT_ENTRIES 8u
+
+/* On which side of an edge all facets of a part lie in projection: 1 left, -1 right; 0: on both, or
+   one is seen edge-on. */
+static int event_side(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t part)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+    int left = 0;
+    int right = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        uint32_t f = use[i].facet;
+        if (p->scene->facet_part[f] == part && !p->skip[f]) {
+            int side = use[i].forward ? view->facing[f] : -view->facing[f];
+            left |= side >= 0;
+            right |= side <= 0;
+        }
+    }
+    return left - right;
+}
+
+/* Lists all events, each pair once; only counts them if events->edge is NULL. */
+static void list_events(const lrcsi_view *view, lrcsi_proximity_events *events)
+{
+    const lrcsi_topology *topology = &view->prepared->topology;
+    const uint32_t *facet_part = view->prepared->scene->facet_part;
+    events->count = 0;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge *edge = &topology->edge[e];
+        const lrcsi_edge_use *use = topology->use + edge->first_use;
+        for (uint32_t i = 0; i < edge->uses; i++) {
+            uint32_t part = facet_part[use[i].facet];
+            uint32_t pair[2];
+            int met = 0;
+            for (uint32_t k = 0; k < i && !met; k++) {
+                met = facet_part[use[k].facet] == part;
+            }
+            if (met || lrcsi_edge_kind_of(view, e, part, pair) != LRCSI_EDGE_EVENT) {
+                continue;
+            }
+            if (events->edge) {
+                events->edge[events->count] = e;
+                events->part[events->count] = part;
+                events->side[events->count] = (signed char)event_side(view, edge, part);
+            }
+            events->count++;
+        }
+    }
+}
+
+/* Pairs of an edge and a part that has a facet on it. */
+size_t lrcsi_proximity_events_most(const lrcs_prepared *p)
+{
+    const lrcsi_topology *topology = &p->topology;
+    const uint32_t *part = p->scene->facet_part;
+    size_t count = topology->edge_count;
+    for (uint32_t e = 0; e < topology->edge_count; e++) {
+        const lrcsi_edge_use *use = topology->use + topology->edge[e].first_use;
+        for (uint32_t i = 1; i < topology->edge[e].uses; i++) {
+            count += part[use[i].facet] != part[use[i - 1].facet];
+        }
+    }
+    return count;
+}
+
+size_t lrcsi_proximity_events_need(size_t count)
+{
+    size_t need =
+        lrcsi_work_add(lrcsi_work_blocks(2, count, sizeof(uint32_t)), lrcsi_work_bytes(count, 1));
+    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * count, EVENT_ENTRIES * count));
+}
+
+int lrcsi_proximity_events_make(const lrcsi_view *view, lrcs_work *work,
+                                lrcsi_proximity_events *events)
+{
+    *events = (lrcsi_proximity_events){.count = 0};
+    list_events(view, events);
+    uint32_t *edge = lrcsi_work_take(work, events->count, sizeof *edge);
+    events->part = lrcsi_work_take(work, events->count, sizeof *events->part);
+    events->side = lrcsi_work_take(work, events->count, sizeof *events->side);
+    if (!edge || !events->part || !events->side) {
+        return LRCS_E_MEMORY;
+    }
+    events->edge = edge;
+    list_events(view, events);
+    events->grid = lrcsi_grid_empty(view, EVENT_CELLS * events->count);
+    return lrcsi_grid_edges(events->edge, events->count, EVENT_ENTRIES * (uint64_t)events->count,
+                            work, &events->grid);
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* What other parts hide of curved shapes in truth, where their facets are hidden: whole regions,
+   and groups of facets that meet the same bands (visibility/proximity/proximity_band.h, 7). Areas are not
+   computed here. */
+#include "visibility/proximity/proximity_hidden.h"
+
+#include "base/work.h"
+
+/* A candidate for a query: at most this fraction of the facet may be visible. */
+#define CANDIDATE_FRACTION 0x1p-20
+
+/* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
+   facets is visible. */
+static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible_area *visible)
+{
+    const lrcsi_view *view = band->classification->view;
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        band->hidden[f] = band->hidden[f] == LRCSI_HIDDEN_BY_QUERY ? LRCSI_HIDDEN_BY_QUERY : 0;
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
+            band->mismatch[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
+            band->hidden[f] == 0) {
+            band->hidden[band->region[f]] = LRCSI_HIDDEN_BY_AREA;
+        }
+    }
+}
+
+/* Marks facets that are hidden and meet bands, but not those of all parts. Returns their number. */
+static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
+                                unsigned char *candidate)
+{
+    const lrcsi_view *view = band->classification->view;
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        candidate[f] = band->mismatch[f] > 0 && band->parts[f] != LRCSI_PART_SET_ALL &&
+                       lrcsi_view_casts(view, f) &&
+                       visible[f].high <= CANDIDATE_FRACTION * lrcsi_view_projected(view, f);
+        count += candidate[f];
+    }
+    return count;
+}
+
+/* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
+   part is not asked: it hides no front, and the bands at its rims decide about its inside. */
+static void find_hidden_groups(lrcsi_proximity_band *band, const unsigned char *candidate,
+                               const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
+{
+    const lrcs_scene *scene = band->classification->view->prepared->scene;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
+        if (candidate[f] && group[f] == f &&
+            lrcsi_query_hidden_by_others(facets, f, others, meter)) {
+            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
+        }
+    }
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        if (candidate[f] && band->hidden[group[f]] == LRCSI_HIDDEN_BY_QUERY) {
+            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
+            band->mismatch[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
+        }
+    }
+}
+
+size_t lrcsi_proximity_hidden_need(const lrcs_prepared *p)
+{
+    size_t facets = p->scene->facet_count;
+    size_t need =
+        lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
+}
+
+void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
+                                 lrcsi_meter *meter, lrcs_work *work)
+{
+    lrcsi_classification *c = band->classification;
+    size_t mark = work->used;
+    uint32_t count = c->view->prepared->scene->facet_count;
+    unsigned char *candidate = lrcsi_work_take(work, count, 1);
+    uint32_t *group = lrcsi_work_take(work, count, sizeof *group);
+    lrcsi_grid facets;
+    if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
+        const lrcsi_grid_readers readers = {.undecided = candidate};
+        lrcsi_proximity_band_join(band, candidate, group);
+        if (lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, work, &facets) ==
+            LRCS_OK) {
+            find_hidden_groups(band, candidate, group, &facets, meter);
+        }
+    }
+    work->used = mark;
+    find_hidden_regions(band, visible);
+}

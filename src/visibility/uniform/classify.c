@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT */
+/* Classifies all facets: which are undecided, and which of the others form regions. The header
+   explains why this suffices. Which event edges cross a facet is decided in visibility/uniform/crossing.c;
+   how much of an undecided facet is visible, elsewhere. */
+#include "visibility/uniform/classify.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/sort.h"
+#include "base/work.h"
+#include "view/side.h"
+#include "visibility/sample.h"
+
+/* The largest number of rows and listed events that are examined to decide whether any event may
+   cross a meshlet. */
+#define MESHLET_STEPS 1024u
+
+/* --- contacts --------------------------------------------------------------------------------- */
+
+/* Can any contact of a facet hide a part of it? */
+static int intersection_divides(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcsi_intersections *intersections = &view->prepared->intersections;
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        if (lrcsi_sample_contact_hides(view, facet, &intersections->entry[i])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* --- events ----------------------------------------------------------------------------------- */
+
+/* The largest number of entries in the grid of events. */
+static size_t max_event_entries(const lrcs_prepared *prepared)
+{
+    return 8 * (size_t)prepared->topology.edge_count;
+}
+
+/* A sort key that puts the largest float first: the z nearest to the laser. */
+static uint64_t depth_key(float z)
+{
+    uint32_t bits;
+    memcpy(&bits, &z, sizeof bits);
+    return bits >> 31 ? bits : ~bits & 0x7fffffff;
+}
+
+/* 1. Sorts the events by their nearest points, as in their boxes. This uses 20 bytes per event
+   temporarily; the grid made afterwards may take 32 (max_event_entries), so that the total need
+   does not grow. 2. Makes their boxes. */
+static int events_sort(lrcsi_classification *c, lrcs_work *work)
+{
+    size_t mark = work->used;
+    const lrcsi_view *view = c->view;
+    uint32_t count = c->events.count;
+    uint64_t *key = lrcsi_work_take(work, count, sizeof *key);
+    uint64_t *key_spare = lrcsi_work_take(work, count, sizeof *key_spare);
+    uint32_t *spare = lrcsi_work_take(work, count, sizeof *spare);
+    if (!key || !key_spare || !spare) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
+        const lrcsi_view_vertex *p = &view->point[edge->low];
+        const lrcsi_view_vertex *q = &view->point[edge->high];
+        double high = lrcsi_max(p->x[2] + p->err, q->x[2] + q->err);
+        key[i] = depth_key(lrcsi_view_box_float(high * view->scale));
+    }
+    lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);
+    work->used = mark;
+    c->search.events = count;
+    c->search.event = lrcsi_work_take(work, count, sizeof *c->search.event);
+    for (uint32_t i = 0; i < count && c->search.event; i++) {
+        const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
+        const uint32_t ends[2] = {edge->low, edge->high};
+        c->search.event[i] =
+            (lrcsi_event_box){lrcsi_view_box_of(view, ends, 2), c->events.edge[i], 0};
+    }
+    return c->search.event ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* --- meshlets --------------------------------------------------------------------------------- */
+
+/* The corners in the view of the facets of a meshlet that can hide others. */
+typedef struct meshlet_corners {
+    uint32_t count; /* 0: not gathered yet */
+    double err;     /* no coordinate of any of them has a larger error */
+    double x[3 * LRCSI_MESHLET_FACETS], y[3 * LRCSI_MESHLET_FACETS];
+} meshlet_corners;
+
+/* Leaves out the corners that a facet shares with the one before it: most of them. */
+static void meshlet_gather(const lrcsi_classification *c, uint32_t meshlet,
+                           meshlet_corners *corners)
+{
+    const lrcs_scene *scene = c->view->prepared->scene;
+    const uint32_t end = lrcsi_meshlet_end(meshlet * LRCSI_MESHLET_FACETS, scene->facet_count);
+    uint32_t before[3] = {LRCS_NONE, LRCS_NONE, LRCS_NONE};
+    uint32_t count = 0;
+    corners->err = 0;
+    for (uint32_t f = meshlet * LRCSI_MESHLET_FACETS; f < end; f++) {
+        if (c->cast[f] == 0) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = scene->facet[f].corner[k];
+            const lrcsi_view_vertex *at = &c->view->point[v];
+            corners->x[count] = at->x[0];
+            corners->y[count] = at->x[1];
+            corners->err = lrcsi_max(corners->err, at->err);
+            count += v != before[0] && v != before[1] && v != before[2];
+        }
+        memcpy(before, scene->facet[f].corner, sizeof before);
+    }
+    corners->count = count;
+}
+
+/* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
+   a facet of the meshlet nor runs along a side? The error of each cross product is that of
+   lrcsi_view_side_orient, which increases with the distance and with the error of the point: the
+   largest of both bound the errors of all. */
+static int event_beside_meshlet(const lrcsi_view *view, const meshlet_corners *corners,
+                                uint32_t edge)
+{
+    const lrcsi_edge *e = &view->prepared->topology.edge[edge];
+    const lrcsi_view_side line = lrcsi_view_side_of(view, e->low, e->high);
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    double distance = 0;
+    for (uint32_t i = 0; i < corners->count; i++) {
+        double x = corners->x[i] - line.at[0];
+        double y = corners->y[i] - line.at[1];
+        double cross = line.to[0] * y - line.to[1] * x;
+        lrcsi_range_extend(cross, &least, &most);
+        distance = lrcsi_max(distance, fabs(x) + fabs(y));
+    }
+    double cross_err =
+        lrcsi_view_cross_err(line.length, line.to_err, distance, line.at_err + corners->err);
+    return least > cross_err || most < -cross_err;
+}
+
+/* Is it proved that no event edge crosses any facet of a meshlet, nor runs along a side of one in
+   front of it? The buckets of most meshlets far from events list nothing, which takes one step per
+   row to see. An event that is not behind the meshlet is beside it if their boxes are disjoint, or
+   else if all of the meshlet lies on one side of the event's line: most of those near a long
+   straight contour do. Returns 0 if this takes more steps than testing the facets of the meshlet.
+ */
+static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcsi_meter *meter)
+{
+    const lrcsi_grid *grid = &c->search.grid;
+    const lrcsi_view_box box = c->search.boxes.meshlet[meshlet];
+    const uint32_t search = lrcsi_event_search_begin(&c->search);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    uint32_t steps = MESHLET_STEPS;
+    meshlet_corners corners;
+    corners.count = 0;
+    corners.err = 0;
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+        const uint32_t listed = items.to - items.from;
+        if (1 + listed > steps) {
+            return 0;
+        }
+        steps -= 1 + listed;
+        for (uint32_t i = items.from; i < items.to; i++) {
+            lrcsi_event_box *event = &c->search.event[grid->item[i]];
+            if (lrcsi_view_box_behind(&event->box, &box) ||
+                lrcsi_view_box_beside(&event->box, &box) || event->last_search == search) {
+                continue;
+            }
+            if (corners.count == 0) {
+                meshlet_gather(c, meshlet, &corners);
+            }
+            if (!event_beside_meshlet(c->view, &corners, event->edge)) {
+                (void)lrcsi_meter_take(meter, 1 + i - items.from);
+                return 0;
+            }
+            event->last_search = search;
+        }
+        if (!lrcsi_meter_take(meter, listed)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- facets ----------------------------------------------------------------------------------- */
+
+/* Decides which facets are undecided: none of a meshlet without contacts that no event can cross;
+   in other meshlets each facet is tested. If the facets to be tested are large, the grid of events
+   is made again with larger buckets. */
+static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work *work)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    size_t mark = work->used;
+    int status = lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work,
+                                  &c->search.grid);
+    for (uint32_t m = 0; m < p->meshlets.count && status == LRCS_OK; m++) {
+        if (c->search.boxes.state[m] == LRCSI_BOXES_MESHLET &&
+            (p->meshlets.meshlet[m].has_contacts || !meshlet_has_no_events(c, m, meter))) {
+            lrcsi_boxes_open(&c->search.boxes, m);
+        }
+    }
+    if (status == LRCS_OK && lrcsi_grid_fit(&c->search.grid, &c->search.boxes)) {
+        work->used = mark;
+        status = lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work,
+                                  &c->search.grid);
+    }
+    for (uint32_t m = 0; m < p->meshlets.count && status == LRCS_OK; m++) {
+        uint32_t end = lrcsi_meshlet_end(m * LRCSI_MESHLET_FACETS, p->scene->facet_count);
+        for (uint32_t f = m * LRCSI_MESHLET_FACETS;
+             f < end && c->search.boxes.state[m] == LRCSI_BOXES_FACETS; f++) {
+            if (c->cast[f] == 0) {
+                continue;
+            }
+            int along_side = 0;
+            c->undecided[f] = intersection_divides(c->view, f) ||
+                              lrcsi_crossings_possible(&c->search, f, meter, &along_side);
+            c->undecided_count += c->undecided[f];
+            if (c->undecided[f] || along_side || p->intersections.met[f]) {
+                c->joinable[f] = 0;
+            }
+        }
+    }
+    return status;
+}
+
+void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region)
+{
+    lrcsi_events_join(classification->view, classification->joinable, region);
+}
+
+/* The direction in which each facet faces if it can hide others, otherwise 0; zeros after the last
+   one. */
+static void facets_cast(const lrcsi_view *view, signed char *cast)
+{
+    uint32_t count = view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count; f++) {
+        cast[f] = lrcsi_view_casts(view, f) ? view->facing[f] : 0;
+    }
+    memset(cast + count, 0, lrcsi_meshlets_room(count) + 1 - count);
+}
+
+size_t lrcsi_classify_need(const lrcs_prepared *prepared)
+{
+    size_t edges = prepared->topology.edge_count;
+    size_t facets = prepared->scene->facet_count;
+    size_t room = lrcsi_meshlets_room(prepared->scene->facet_count);
+    size_t need = lrcsi_work_add(lrcsi_work_blocks(2, room + 1, 1), lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(room, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_events_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, max_event_entries(prepared)));
+}
+
+/* The grid of events has about one bucket for every facet that can hide others: then most facets
+   meet no bucket that lists an event, and need no further test. Called: facets_cast,
+   lrcsi_boxes_make, lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide.
+ */
+int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
+                        lrcsi_classification *classification)
+{
+    size_t mark = work->used;
+    uint32_t count = view->prepared->scene->facet_count;
+    size_t room = lrcsi_meshlets_room(count);
+    lrcsi_classification c = {.view = view, .search = {.view = view}};
+    c.search.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
+    c.undecided = lrcsi_work_take_zero(work, count, 1);
+    c.cast = lrcsi_work_take(work, room + 1, 1);
+    c.joinable = lrcsi_work_take(work, room + 1, 1);
+    c.search.component = c.component = lrcsi_work_take(work, room, sizeof *c.component);
+    int status = c.undecided && c.cast && c.joinable && c.component ? LRCS_OK : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        facets_cast(view, c.cast);
+        status = lrcsi_boxes_make(view, c.cast, work, &c.search.boxes);
+    }
+    status = status == LRCS_OK ? lrcsi_events_make(view, c.cast, work, &c.events) : status;
+    status = status == LRCS_OK ? events_sort(&c, work) : status;
+    if (status == LRCS_OK) {
+        lrcsi_events_join(view, c.cast, c.component);
+        memcpy(c.joinable, c.cast, room + 1); /* until it is known of a facet that it is not */
+        status = facets_decide(&c, meter, work);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    *classification = c;
+    return LRCS_OK;
+}
