@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides the slack between parts, and which facets are within it. visibility/proximity/proximity_band.h
-   proves that the slack suffices. All results are rounded outward: every distance is increased by
-   LRCSI_PROXIMITY_ERR. */
+/* Decides the slack between parts, and which facets are within it.
+   visibility/proximity/proximity_band.c proves that the slack suffices. All results are rounded
+   outward: every distance is increased by LRCSI_PROXIMITY_ERR. */
 #include "scene/proximity.h"
 
 #include <math.h>

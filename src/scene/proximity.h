@@ -26,7 +26,7 @@ double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part
                                     double lateral);
 
 /* The slack in projection where points of the true surface correspond to points of facets of the
-   same projection (visibility/proximity/proximity_band.h, 11). */
+   same projection (visibility/proximity/event_band.c, 5). */
 double lrcsi_proximity_slack_aligned(const lrcs_prepared *prepared, uint32_t other);
 
 /* How far points of the true surface may be from their images on a facet: by at most `bound[i]`
@@ -61,8 +61,8 @@ double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
 /* 1 if a facet has rows. */
 int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 
-/* 1 if a facet is on the wall of a sphere, dome or paraboloid among other parts: only of these it is
-   asked which parts are near. */
+/* 1 if a facet is on the wall of a sphere, dome or paraboloid among other parts: only of these it
+   is asked which parts are near. */
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *prepared, uint32_t facet);
 
 /* A facet's longest side, scaled. */

@@ -28,7 +28,7 @@
 /* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
    Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
    inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within 12 + 2 (1 + 8) =
-   30 reaches of the facet (visibility/proximity/proximity_band.h, 11). */
+   30 reaches of the facet (visibility/proximity/event_band.c, 5). */
 #define MAX_REACHES 12.0
 
 typedef struct pieces_job {

@@ -9,14 +9,14 @@
    for the true surface, both as functions on the view plane. The truth of C is T = Int_U' G v. Used
    is M = sum over f of Int_f' G w, and what is between U' and f' along the border of C.
    1. Within the facets of C, v and w differ only on the fractions gain_aligned and loss_aligned of
-      visibility/proximity/proximity_band.h, 11.
+      visibility/proximity/event_band.c, 5.
    2. Inside C, every point of the view plane belongs to one facet and to one patch. At the border
       it may belong to one of both only. A side of a sector is a segment of f' and an arc of U'; the
       margin between them is swept by the segments from a point of one to the point of the other
       with the same parameter. The integral over U' exceeds that over f' by the sum over all sides
       of the integrals over the margins, with the sign of their areas (Stokes' theorem for the
       homotopy of both borders). Sides inside C cancel.
-   3. Beside a side that is free (11), w = v, all 1 or all 0: there the integral of G over the margin
+   3. Beside a side that is free there, w = v, all 1 or all 0: there the integral of G over the margin
       is added, or nothing. Any other margin is an error, either way. []
 
    The integrals of G over visible pieces use rules of positive weights that are exact up to degree

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The tessellation error of one facet under shadowing. It combines the deviation of F = f_r cos^2
    over the facet's patch (optics/deviation.c) with the fraction of the facet on which the true
-   shapes and the facets may differ in what is visible (visibility/proximity/proximity_band.h).
+   shapes and the facets may differ in what is visible (visibility/proximity/proximity_band.c).
 
    Let f be the facet, of area S, and U its patch, whose area differs from S by at most a S. Let v
    be 1 where a point of U is visible and 0 where it is not, and w the same for points of f. They
@@ -38,15 +38,15 @@
    rows, a fraction q of the sector, the integral of F - F_i is q times its integral over the
    sector, and every bound on the deviation of the whole patch, or of a region, holds q times. Rows
    that meet no proximity band are visible over their whole length or nowhere
-   (visibility/proximity/proximity_band.h): these are a fraction q <= 1. The other rows are a fraction m of
-   the area, at most twice their fraction of the height, since no row of a trapezoid is longer than
-   twice the mean. Together, for a sector of which no facet is hidden or faces away:
+   (visibility/proximity/proximity_band.c, 5): these are a fraction q <= 1. The other rows are a
+   fraction m of the area, at most twice their fraction of the height, since no row of a trapezoid
+   is longer than twice the mean. Together, for a sector of which no facet is hidden or faces away:
        T - M <= S (whole + m region + F_i (m a + (1 + a) g)),
    and M - T likewise with l.
 
    A facet that is partly visible, or whose sector is, may be summed with a linear function l of
-   position on the facets in place of F_i (integrate/wall/linear.h): M' = Int_f l w. It exceeds M by the
-   correction Int_f (l - F_i) w, which follows from the area and the first moment of what is
+   position on the facets in place of F_i (integrate/wall/linear.h): M' = Int_f l w. It exceeds M by
+   the correction Int_f (l - F_i) w, which follows from the area and the first moment of what is
    visible. Then everything above holds with M' for M, l for F_i, and the bounds of linear.h for
    those of F - F_i: F_i in a bound becomes an upper bound of l, which is nowhere negative. Two more
    things:

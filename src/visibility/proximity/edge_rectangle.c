@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Cuts facets with rectangles about event edges. It does not decide how wide these have to be
-   (visibility/proximity/proximity_band.c). */
+   (visibility/proximity/event_band.c). */
 #include "visibility/proximity/edge_rectangle.h"
 
 #include <math.h>

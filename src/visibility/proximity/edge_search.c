@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The lines parallel to the sides of a facet beyond which event edges are too far away. It does not
-   decide how far that is (visibility/proximity/proximity_band.c). */
+   decide how far that is (visibility/proximity/event_band.c). */
 #include "visibility/proximity/edge_search.h"
 
 #include <math.h>

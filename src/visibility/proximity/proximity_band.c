@@ -1,8 +1,86 @@
 /* SPDX-License-Identifier: MIT */
 /* Adds up, for each facet, the fractions of its area near event edges and near facets of other
-   parts. Nothing is decided exactly: every distance is increased by the errors of the positions
-   between which it is measured. integrate/wall/tessellation.c decides what the uncertain areas add to
-   the bound of sigma. */
+   parts. How far from an event edge they extend is decided in visibility/proximity/event_band.c,
+   and which facets of other parts are near in scene/proximity.c. integrate/wall/tessellation.c
+   decides what the uncertain areas add to the bound of sigma.
+
+   Definitions. A part Q may hide points of another part P.
+     d        direction to the laser; heights are measured along d, and "in projection" means in
+              the projection along d
+     ray      of a point: the half-line from it towards the laser; what it meets hides the point
+     B, W     of a curved part that the library makes: a closed convex body, which may be flat, and
+              the true surface, which is the boundary of B; if the part is open, without one or
+              more flat openings
+     S        the part's facets; a map takes W onto S
+     e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
+              boxes and models e = 0, and W is S
+     k        the part's Hausdorff distance (lrcs_part.hausdorff). If it is closed or flat, every
+              point of B is within k of the solid that S encloses (of S, if flat), and every
+              point of that within k of B. If it is open, every point of W is within k of S, every
+              point of S within k of W, and every rim of W within k of an event edge of S. For
+              plates, boxes and models k = 0. It is smaller than e, because nearest points need
+              not preserve areas
+     x, y     a point of the true surface of P, and its image on a facet of P
+     r        the slack of P and Q (lrcsi_proximity_slack), at least e_P + k_Q, and if Q is open at
+              least k_Q + max(e_P, k_Q)
+     V        all points of B and behind B; V is convex
+     upper, lower side of B: the points where lines along d leave B, and where they enter it; in
+              projection their heights are a concave and a convex function
+     event edge of Q: an edge, unless exactly two facets of Q meet in it, continue each other and
+              face the same way; contours and the rims of openings are event edges
+   In 1, B, W, S and V are those of Q. Two conditions on y:
+     (1) A facet of Q is within r of y in space; if Q is closed, a facet that faces the laser.
+     (2) An event edge of Q is within r of y in projection, and not 2 r behind y.
+
+   1. Visibility. Unless (1) or (2) holds, Q hides x if and only if its facets hide y. Proof:
+   a. The facets of Q hide all points z of the ball of radius r about y, or none of them: as z
+      moves, the number of facets of Q on its ray changes only where z crosses a facet, (1), or the
+      ray crosses an event edge, (2). In (1), facets of a closed Q that face away from the laser
+      need not be counted: where z crosses one, it enters or leaves the inside of Q, and on either
+      side of it the ray of z meets a facet that faces the laser.
+   b. If they hide no z, Q does not hide x: if a point of W hid x, a point s within k_Q of it would
+      hide a point z within k_Q of x, and z is in the ball. If Q is open or flat, s is a point of S.
+      If Q is closed, s is a point of the solid that S encloses: a ray that reaches s from below
+      leaves that solid at s or above, through S, so that S hides z.
+   c. If they hide all z and k_Q = 0, Q hides x: W is S, and x is in the ball.
+   d. If they hide all z and k_Q > 0, every z lies within k_Q of V. Since V is convex, the ball of
+      radius r - k_Q about y lies in V, and x is in that ball. So the ray of x meets B, and leaves
+      it at a point u. Q hides x, unless all points of the boundary of B on the ray lie in openings.
+   e. In that remaining case (1) or (2) holds. Let m = max(e_P, k_Q), s a point of S that hides the
+      highest z, and w a point of W within k_Q of s: in projection w is within k_Q of y, and it is
+      higher than y by at least r - k_Q. Follow the boundary of B from the line through x along d
+      to w, straight in projection. In projection this path stays within m of y.
+      - If w is on the upper side, follow that side from u. The path crosses a rim, because u is in
+        an opening and w is not. Both ends are higher than y - e_P, and the upper side is concave:
+        so the rim point is higher than y - e_P as well.
+      - Otherwise follow the lower side, and at its end a wall parallel to d if w is on one. From
+        some point on, the path stays on W. If that point is lower than y, the path passes the
+        height of y after it, on W and within m of y. Next to a point of W within m of y is a point
+        of S within m + k_Q <= r of y, so (1) holds. If that point is not lower than y, it is a rim
+        point, or it is the start of the path, on W. Such a start is below x, because no point of
+        W is on the ray of x; so it is within e_P of y, and (1) holds again.
+      The event edge within k_Q of the rim point is within m + k_Q <= r of y in projection and not
+      2 r behind y: (2) holds. []
+
+   2. Grazing facets. Facets that are edge-on to within rounding (lrcsi_proximity.grazing_cos) count
+   as uncertain over their whole area: rounding may have folded the mesh there.
+
+   3. Bands. A proximity band contains all points of a facet where (1), (2) or the condition of
+   event_band.c, 3, may hold: prisms about facets, rectangles about edges. The fractions of a facet
+   in its bands add up to an upper bound of the fraction where the visibility of true shapes and
+   facets may differ. A fraction of the facet's area is the same fraction of its patch, because the
+   map stretches areas evenly (mesh/shape/revolution.c), up to what lrcs_part.stretch_err bounds.
+
+   4. Regions. Facets of a curved part that are nowhere uncertain, joined across edges, form
+   regions. Other parts hide a region entirely or not at all; one hidden facet that faces the laser
+   tells which. A facet that meets no band of Q, and of which a facet of Q hides a point, is hidden
+   by Q entirely, whatever bands of other parts it meets.
+
+   5. Rows. A row of a facet on a straight wall (scene/proximity.h) that meets no band is visible
+   over its whole length or nowhere, for the facets and for the true shapes. For the facets: along
+   the row, what other parts hide changes only where (1) or (2) holds, and what its own part hides,
+   seen from inside, only at a rim as in event_band.c, 3. For the true shapes: by 1, at each of its
+   points. */
 #include "visibility/proximity/proximity_band.h"
 
 #include <math.h>
@@ -11,453 +89,78 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "scene/proximity.h"
-#include "visibility/proximity/depth_order.h"
-#include "visibility/proximity/edge_rectangle.h"
-#include "visibility/proximity/edge_search.h"
-#include "visibility/proximity/outline.h"
-#include "visibility/proximity/proximity_events.h"
-
-/* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
-   u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
- */
-#define COS_ERR 1e-9
-/* The projected areas of facets with a larger cosine than this are accurate to COS_ERR, relative:
-   30 u / 1e-4 is below 1e-10. */
-#define COS_MIN 1e-4
-/* A proof about a part (visibility/proximity/depth_order.h) is used for a facet only if it holds for all but
-   this fraction of it. */
-#define PROOF_FRACTION_MAX 0x1p-20
-/* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
-   part by part, so that few pairs are needed at a time. */
-#define DEPTH_PAIRS 64u
-
-/* A pair of parts, `back` perhaps behind `front`; front == back: none yet. */
-typedef struct band_pair {
-    uint32_t front, back;
-    lrcsi_depth_order order;
-} band_pair;
-
-/* Bounds in view coordinates. */
-typedef struct band_box {
-    double low[3], high[3];
-} band_box;
+#include "visibility/index/marks.h"
+#include "visibility/proximity/event_band.h"
 
 typedef struct band_job {
-    /* Given: */
     const lrcsi_view *view;
     lrcsi_meter *meter;
-
-    /* Made first: */
-    lrcsi_proximity_events events;
-    band_box *box;          /* part: that of its facets in the view */
-    band_box curved;        /* of all facets of curved parts */
-    lrcsi_outline *outline; /* part */
-    const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
-
-    /* Returned (lrcsi_proximity_band): */
-    double *mismatch, *gain, *loss, *rows;
-    double *gain_aligned, *loss_aligned;
-    unsigned char *free_sides;
-    lrcsi_part_set *parts;
-
-    /* Kept, so that nothing is computed again: */
-    lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
-                                   and of its facets; gain < 0: not computed yet */
-    uint32_t *seen[2]; /* event: 1 + the last facet for which it was considered, without and with
-                          facet_search.aligned */
-    band_pair *pair;   /* DEPTH_PAIRS of them: what was found last */
+    lrcsi_event_bands bands;
+    lrcsi_box curved;           /* of all facets of curved parts, in the view */
+    lrcsi_marks considered;     /* events: those that were considered for the facet */
+    lrcsi_proximity_band *band; /* to be filled */
 } band_job;
-
-static uint32_t band_part(const band_job *job, uint32_t facet)
-{
-    return job->view->prepared->scene->facet_part[facet];
-}
-
-/* Lists the events, and takes memory for what is found of each. */
-static int band_events(band_job *job, lrcs_work *work)
-{
-    int status = lrcsi_proximity_events_make(job->view, work, &job->events);
-    const uint32_t count = status == LRCS_OK ? job->events.count : 0;
-    job->areas = lrcsi_work_take(work, count, sizeof *job->areas);
-    for (int i = 0; i < 2; i++) {
-        job->seen[i] = lrcsi_work_take_zero(work, count, sizeof *job->seen[i]);
-    }
-    if (status == LRCS_OK && (!job->areas || !job->seen[0] || !job->seen[1])) {
-        return LRCS_E_MEMORY;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        job->areas[i].gain = -1;
-    }
-    return status;
-}
-
-/* --- one facet and one event ------------------------------------------------------------------ */
-
-/* 1 if an edge of the part is a rim whose wall faces the laser, or may face it; also 1 if the limit
-   of steps is reached. */
-static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-    uint32_t count = 0;
-    int facing = 0;
-    if (!lrcsi_meter_take(job->meter, edge->uses)) {
-        return 1;
-    }
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (band_part(job, use[i].facet) != part || p->skip[use[i].facet]) {
-            continue;
-        }
-        const lrcsi_normal *n = &p->normal[use[i].facet];
-        const double *d = job->view->direction;
-        double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
-                        (n->length * job->view->length);
-        count++;
-        facing |= cosine > -(p->scene->part[part].bounds.patch.turn + COS_ERR);
-    }
-    return count == 1 && facing;
-}
-
-/* The distance in projection within which an event edge may change what is visible of a facet,
-   unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
-   can. */
-static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double lateral,
-                          int aligned)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    uint32_t part = band_part(job, facet);
-    if (aligned) {
-        return job->events.part[event] == part
-                   ? 0
-                   : lrcsi_proximity_slack_aligned(p, job->events.part[event]);
-    }
-    if (job->events.part[event] == part) {
-        const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
-        return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
-    }
-    return lrcsi_proximity_slack_across(p, part, job->events.part[event], lateral);
-}
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* The search for event edges near a facet. */
-typedef struct facet_search {
-    lrcsi_edge_search where;
-    int inside; /* the laser may see the facet through an opening of its own part */
-    lrcsi_displacement displacement;
-    double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
-    int aligned; /* 1: points of facet and true surface correspond if their projections are equal */
-} facet_search;
-
-static facet_search search_begin(const band_job *job, uint32_t facet)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const uint32_t part = band_part(job, facet);
-    double near = 2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
-    return (facet_search){
-        .where = lrcsi_edge_search_make(job->view, &job->events.grid, facet, near),
-        .inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part),
-        .lateral = -1};
-}
-
 /* Adds a fraction of a facet's area, near one of these parts, where the facets may hide what the
    true shapes do not, or the reverse. */
-static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_set parts)
+static void add_both(lrcsi_proximity_band *band, uint32_t facet, double fraction,
+                     lrcsi_part_set parts)
 {
-    job->parts[facet] |= parts;
-    job->mismatch[facet] += fraction;
-    job->gain[facet] += fraction;
-    job->loss[facet] += fraction;
-}
-
-/* What a plane between two parts proves; it is kept in job->pair. */
-static const lrcsi_depth_order *depth_order(band_job *job, uint32_t front, uint32_t back)
-{
-    band_pair *pair = &job->pair[(front + 7 * back) % DEPTH_PAIRS]; /* any spread serves */
-    if (pair->front != front || pair->back != back) {
-        *pair = (band_pair){
-            front, back,
-            lrcsi_depth_order_make(&job->body[front], &job->body[back], job->view->unit)};
-    }
-    return &pair->order;
-}
-
-/* Does a proof about a facet's part hold for the facet, except for the fraction *unproved? It does
-   not if that is not small: then the facet lies in the plane. */
-static int proof_holds(const band_job *job, uint32_t facet, const lrcsi_order_proof *proof,
-                       double *unproved)
-{
-    double fraction = proof->known ? lrcsi_order_unproved(proof, job->view->prepared, facet) : 1;
-    *unproved = fraction > PROOF_FRACTION_MAX ? 0 : fraction;
-    return fraction <= PROOF_FRACTION_MAX;
-}
-
-/* Is a part behind the facet's own part (visibility/proximity/depth_order.h), except for a fraction of the
-   facet? */
-static int part_is_behind(band_job *job, uint32_t facet, uint32_t other, double *unproved)
-{
-    *unproved = 0;
-    return job->body &&
-           proof_holds(job, facet, &depth_order(job, band_part(job, facet), other)->front_is_free,
-                       unproved);
+    band->parts[facet] |= parts;
+    band->mismatch[facet] += fraction;
+    band->gain[facet] += fraction;
+    band->loss[facet] += fraction;
 }
 
 /* Adds the fraction of a facet for which a proof about another part does not hold. */
-static void add_unproved(band_job *job, uint32_t facet, uint32_t other, double fraction)
+static void add_unproved(lrcsi_proximity_band *band, uint32_t facet, uint32_t other,
+                         double fraction)
 {
     if (fraction > 0) {
-        add_both(job, facet, fraction, lrcsi_part_set_of(other));
-        job->rows[facet] += fraction;
-    }
-}
-
-/* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
-   or without reach, and for parts with one opening if their boxes do not contain points of the
-   facet's patch. */
-static int gain_is_inside(const band_job *job, const facet_search *search, uint32_t part)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const band_box *box = &job->box[part];
-    int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
-    int apart = 0;
-    for (int k = 0; k < 3; k++) {
-        apart |= search->where.low[k] > box->high[k] || search->where.high[k] < box->low[k];
-    }
-    return openings == 0 || (openings == 1 && apart);
-}
-
-/* --- facets behind a shape -------------------------------------------------------------------- */
-
-/* Is the outline of a part known, and the part in front of a facet: because the facet is flat, and
-   the part in front of its plane (*err: as for lrcsi_outline_in_front); or because a plane
-   separates it from the facet's own part, except for a fraction of the facet? */
-static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *err,
-                         double *unproved)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    uint32_t own = band_part(job, facet);
-    int is_flat = p->scene->facet_smooth[facet] == 0 || p->proximity.reach[own] == 0;
-    *err = *unproved = 0;
-    if (!job->outline[part].known) {
-        return 0;
-    }
-    if (is_flat && job->view->facing[facet] > 0 &&
-        lrcsi_outline_in_front(&job->outline[part], job->view, facet, err)) {
-        return 1;
-    }
-    *err = 0;
-    return job->body &&
-           proof_holds(job, facet, &depth_order(job, part, own)->back_by_outline, unproved);
-}
-
-/* Is an event edge a rim inside the outline of its part? */
-static int rim_is_inside(const band_job *job, uint32_t event)
-{
-    const lrcsi_view *view = job->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[job->events.edge[event]];
-    const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
-    uint32_t facets = 0;
-    int facing = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (band_part(job, use[i].facet) == job->events.part[event]) {
-            facing = view->facing[use[i].facet];
-            facets++;
-        }
-    }
-    return facets == 1 &&
-           lrcsi_outline_inside(&job->outline[job->events.part[event]], view, facing);
-}
-
-/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
-   event edge; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
-static void outline_fractions(band_job *job, uint32_t facet, uint32_t event, double delta,
-                              double *gain, double *loss)
-{
-    const lrcsi_view *view = job->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[job->events.edge[event]];
-    const lrcsi_outline *outline = &job->outline[job->events.part[event]];
-    double projected = lrcsi_view_projected(view, facet);
-    double whole = 0.5 * view->prepared->normal[facet].length;
-    lrcsi_outline_areas *areas = &job->areas[event];
-    *gain = *loss = HUGE_VAL;
-    if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
-        return;
-    }
-    if (areas->gain < 0) {
-        const double *a = view->point[edge->low].x;
-        const double *b = view->point[edge->high].x;
-        *areas = rim_is_inside(job, event)
-                     ? (lrcsi_outline_areas){0, 0, 0}
-                     : lrcsi_outline_areas_make(outline, a, b, job->events.side[event]);
-    }
-    *gain = (areas->gain + areas->width * delta) / projected * (1 + COS_ERR);
-    *loss = (areas->loss + areas->width * delta) / projected * (1 + COS_ERR);
-}
-
-/* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
-   line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
-   component perpendicular to the edge counts. */
-static lrcsi_edge_rectangle event_rectangle(const band_job *job, uint32_t facet, uint32_t event,
-                                            const facet_search *search, double slack, double wider)
-{
-    const lrcsi_topology *topology = &job->view->prepared->topology;
-    lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
-        job->view, facet, &topology->edge[job->events.edge[event]], slack);
-    if (box.has_sides && !search->aligned) {
-        double across = lrcsi_displacement_along(&search->displacement, box.across) +
-                        box.rotation_err * search->lateral;
-        across = event_slack(job, facet, event, lrcsi_min(across, search->lateral), 0) + wider;
-        box.half_width = lrcsi_min(across, slack) + box.err;
-    }
-    return box;
-}
-
-/* The fractions of a facet near an event edge. */
-typedef struct event_fractions {
-    double area, rows; /* of its area, of its rows, where the edge matters */
-    double gain, loss;
-    double unproved; /* where a proof about the edge's part does not hold */
-} event_fractions;
-
-/* Finds the fractions near an event edge:
-   1. none if it is too far away, or an edge of the facet's own part of which it sees no inside;
-   2. none but what a proof leaves open if its part is behind the facet's;
-   3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
-   4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
-      the inner side as gain, on the outer side as loss;
-   5. but no more than the area between outlines, where the part is in front of the facet.
-   Returns 0 if there are none. */
-static int event_fractions_make(band_job *job, uint32_t facet, uint32_t event, facet_search *search,
-                                event_fractions *f)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
-    int is_own = job->events.part[event] == band_part(job, facet);
-    int side = is_own ? 0 : job->events.side[event];
-    *f = (event_fractions){.unproved = 0};
-    if ((is_own && !search->inside) ||
-        lrcsi_edge_search_excludes(&search->where, job->view->point[edge->low].x,
-                                   job->view->point[edge->high].x)) {
-        return 0; /* 1 */
-    }
-    if (search->lateral < 0) {
-        search->displacement = lrcsi_proximity_displacement(p, facet);
-        search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
-    }
-    double slack = event_slack(job, facet, event, search->lateral, search->aligned);
-    double err = 0;
-    if (!(slack > 0)) {
-        return 0;
-    }
-    if (!is_own && part_is_behind(job, facet, job->events.part[event], &f->unproved)) { /* 2 */
-        return f->unproved > 0;
-    }
-    int in_front =
-        !is_own && part_in_front(job, facet, job->events.part[event], &err, &f->unproved);
-    slack += err;
-    lrcsi_edge_rectangle box = event_rectangle(job, facet, event, search, slack, err); /* 3 */
-    lrcsi_slice slice = lrcsi_edge_rectangle_slice(job->view, facet, &box);
-    if (slice.count == 0 || (!is_own && lrcsi_edge_rectangle_behind(
-                                            job->view, facet, edge,
-                                            (search->aligned ? LRCSI_PROXIMITY_NEAR : 1) *
-                                                lrcsi_proximity_slack(p, band_part(job, facet),
-                                                                      job->events.part[event])))) {
-        return 0;
-    }
-    const uint32_t *vertex = p->scene->facet[facet].corner;
-    const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
-                                     job->view->point[vertex[2]].x};
-    double whole = 0.5 * p->normal[facet].length; /* 4 */
-    double longest = lrcsi_proximity_longest(p, facet);
-    f->rows = lrcsi_proximity_rows(p, facet, corner, &slice);
-    f->area = f->gain = f->loss = lrcsi_slice_fraction(&slice, whole, longest);
-    if (side == 0) {
-        f->unproved = 0;
-        return 1;
-    }
-    lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
-    lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
-    if (gain_is_inside(job, search, job->events.part[event])) {
-        f->gain = lrcsi_slice_fraction(&inner, whole, longest);
-    }
-    f->loss = lrcsi_slice_fraction(&outer, whole, longest);
-    if (in_front) { /* 5 */
-        double delta = (search->aligned ? 0 : search->lateral) + err;
-        double gain;
-        double loss;
-        outline_fractions(job, facet, event, delta, &gain, &loss);
-        f->area = lrcsi_min(f->area, gain + loss);
-        f->gain = lrcsi_min(f->gain, gain);
-        f->loss = lrcsi_min(f->loss, loss);
-    } else {
-        f->unproved = 0;
-    }
-    return 1;
-}
-
-/* Marks the sides of a facet near which an event edge of another part passes. The edges of a part
-   behind the facet's own do not matter. */
-static void mark_sides(band_job *job, uint32_t facet, uint32_t event, facet_search *search)
-{
-    const lrcsi_view *view = job->view;
-    const lrcs_prepared *p = view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    const uint32_t own = band_part(job, facet);
-    const double slack = lrcsi_proximity_slack(p, own, job->events.part[event]);
-    double unproved;
-    if (job->events.part[event] == own || job->free_sides[facet] == 0 ||
-        lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
-                                   view->point[edge->high].x) ||
-        part_is_behind(job, facet, job->events.part[event], &unproved) ||
-        lrcsi_edge_rectangle_behind(view, facet, edge, LRCSI_PROXIMITY_NEAR * slack)) {
-        return;
-    }
-    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
-        view, facet, edge,
-        lrcsi_proximity_slack_aligned(p, job->events.part[event]) + 2 * p->proximity.reach[own]);
-    for (int k = 0; k < 3; k++) {
-        if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
-                                       view->point[corner[(k + 1) % 3]].x)) {
-            job->free_sides[facet] &= (unsigned char)~(1 << k);
-        }
+        add_both(band, facet, fraction, lrcsi_part_set_of(other));
+        band->rows[facet] += fraction;
     }
 }
 
 /* Adds the fractions near an event edge, which belong to the visibility of one of the two
    correspondences between facet and true surface. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, facet_search *search)
+static void add_event(band_job *job, uint32_t facet, uint32_t event, lrcsi_facet_search *search)
 {
-    event_fractions f;
-    if (search->aligned) {
-        mark_sides(job, facet, event, search);
+    lrcsi_proximity_band *band = job->band;
+    lrcsi_event_band near;
+    if (search->aligned && band->free_sides[facet] != 0) {
+        band->free_sides[facet] &=
+            (unsigned char)~lrcsi_event_sides(&job->bands, facet, event, search);
     }
-    if (!event_fractions_make(job, facet, event, search, &f)) {
+    if (!lrcsi_event_band_make(&job->bands, facet, event, search, &near)) {
         return;
     }
     if (search->aligned) {
-        job->gain_aligned[facet] += f.gain + f.unproved;
-        job->loss_aligned[facet] += f.loss + f.unproved;
+        band->gain_aligned[facet] += near.gain + near.unproved;
+        band->loss_aligned[facet] += near.loss + near.unproved;
         return;
     }
-    add_unproved(job, facet, job->events.part[event], f.unproved);
-    if (f.area > 0) {
-        job->parts[facet] |= lrcsi_part_set_of(job->events.part[event]);
-        job->mismatch[facet] += f.area;
-        job->gain[facet] += f.gain;
-        job->loss[facet] += f.loss;
-        job->rows[facet] += f.rows;
+    const uint32_t part = job->bands.events.part[event];
+    add_unproved(band, facet, part, near.unproved);
+    if (near.area > 0) {
+        band->parts[facet] |= lrcsi_part_set_of(part);
+        band->mismatch[facet] += near.area;
+        band->gain[facet] += near.gain;
+        band->loss[facet] += near.loss;
+        band->rows[facet] += near.rows;
     }
 }
 
 /* Adds the fractions near all event edges. Returns 0 if the limit of steps is reached. */
-static int add_events(band_job *job, uint32_t facet, facet_search *search)
+static int add_events(band_job *job, uint32_t facet, lrcsi_facet_search *search)
 {
-    const lrcsi_grid *grid = &job->events.grid;
+    const lrcsi_grid *grid = &job->bands.events.grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->where.low, search->where.high);
     lrcsi_grid_rect cells = lrcsi_grid_buckets(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
-    uint32_t *seen = job->seen[search->aligned];
+    lrcsi_marks_clear(&job->considered, job->bands.events.count);
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->where.side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
@@ -466,12 +169,12 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
-            if (!search->aligned && job->gain[facet] >= 1 && job->loss[facet] >= 1) {
-                job->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
+            if (!search->aligned && job->band->gain[facet] >= 1 && job->band->loss[facet] >= 1) {
+                job->band->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
                 return 1;
             }
-            if (seen[event] != facet + 1) {
-                seen[event] = facet + 1;
+            if (!lrcsi_marked(&job->considered, event)) {
+                job->considered.entry[event] = job->considered.number;
                 add_event(job, facet, event, search);
             }
         }
@@ -486,7 +189,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
 static int begin_aligned(band_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const uint32_t own = band_part(job, facet);
+    const uint32_t own = p->scene->facet_part[facet];
     const lrcsi_part_set near = p->proximity.near[facet];
     double open = 0;
     if (!lrcsi_proximity_on_round_wall(p, facet) || !p->scene->part[own].rigid ||
@@ -498,15 +201,13 @@ static int begin_aligned(band_job *job, uint32_t facet)
         if ((near & lrcsi_part_set_of(i)) == 0 || i == own) {
             continue;
         }
-        if (!job->body ||
-            (!proof_holds(job, facet, &depth_order(job, own, i)->front_is_free, &unproved) &&
-             !proof_holds(job, facet, &depth_order(job, i, own)->back_by_outline, &unproved))) {
+        if (!lrcsi_part_is_separated(&job->bands.orders, facet, i, &unproved)) {
             return 0;
         }
         open += unproved;
     }
-    job->gain_aligned[facet] = job->loss_aligned[facet] = open;
-    job->free_sides[facet] = 7;
+    job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = open;
+    job->band->free_sides[facet] = 7;
     return 1;
 }
 
@@ -521,25 +222,26 @@ static void facet_fractions(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
-    double reach = p->proximity.reach[band_part(job, facet)];
-    facet_search search = search_begin(job, facet);
+    double reach = p->proximity.reach[p->scene->facet_part[facet]];
+    lrcsi_facet_search search = lrcsi_facet_search_make(&job->bands, facet);
     if (reach == 0 &&
         (search.where.low[0] > job->curved.high[0] || search.where.low[1] > job->curved.high[1] ||
          search.where.high[0] < job->curved.low[0] || search.where.high[1] < job->curved.low[1])) {
         return;
     }
     if (!add_events(job, facet, &search)) {
-        add_both(job, facet, 1, LRCSI_PART_SET_ALL);
+        add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
     if (begin_aligned(job, facet)) {
         search.aligned = 1;
         if (!add_events(job, facet, &search)) {
-            job->gain_aligned[facet] = -1;
+            job->band->gain_aligned[facet] = -1;
         }
     }
-    if (reach > 0 && fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-                         p->proximity.grazing_cos[band_part(job, facet)] + COS_ERR) {
-        add_both(job, facet, 1, LRCSI_PART_SET_ALL);
+    if (reach > 0 &&
+        fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
+            p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_EVENT_BAND_COS_ERR) {
+        add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
 
@@ -555,49 +257,19 @@ static void add_pairs(band_job *job)
     for (size_t i = 0; i < p->proximity.count; i++) {
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
-        int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
-        uint32_t other = band_part(job, pair->other);
+        int shut = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
+        uint32_t other = p->scene->facet_part[pair->other];
         double err;
         double unproved;
         if (facing == 0 || (facing < 0 && shut)) {
             continue;
         }
-        if (part_in_front(job, pair->facet, other, &err, &unproved) ||
-            part_is_behind(job, pair->facet, other, &unproved)) {
-            add_unproved(job, pair->facet, other, unproved);
+        if (lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved) ||
+            lrcsi_part_is_behind(&job->bands.orders, pair->facet, other, &unproved)) {
+            add_unproved(job->band, pair->facet, other, unproved);
         } else {
-            add_both(job, pair->facet, (double)pair->area_fraction, lrcsi_part_set_of(other));
-            job->rows[pair->facet] += (double)pair->row_fraction;
-        }
-    }
-}
-
-static void box_add(band_box *box, const double low[3], const double high[3])
-{
-    for (int k = 0; k < 3; k++) {
-        box->low[k] = lrcsi_min(box->low[k], low[k]);
-        box->high[k] = lrcsi_max(box->high[k], high[k]);
-    }
-}
-
-/* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes
-   that they are compared with are enlarged (lrcsi_edge_search_make). */
-static void band_boxes(band_job *job)
-{
-    static const band_box none = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
-                                  {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    const lrcs_prepared *p = job->view->prepared;
-    job->curved = none;
-    for (uint32_t i = 0; i < p->scene->part_count; i++) {
-        job->box[i] = none;
-    }
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (!p->skip[f] && p->proximity.reach[band_part(job, f)] > 0) {
-            double low[3];
-            double high[3];
-            lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
-            box_add(&job->box[band_part(job, f)], low, high);
-            box_add(&job->curved, low, high);
+            add_both(job->band, pair->facet, (double)pair->area_fraction, lrcsi_part_set_of(other));
+            job->band->rows[pair->facet] += (double)pair->row_fraction;
         }
     }
 }
@@ -607,62 +279,54 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     if (!p->proximity.reach) {
         return 0;
     }
-    size_t edges = lrcsi_proximity_events_most(p);
-    size_t need = lrcsi_work_blocks(6, p->scene->facet_count, sizeof(double));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(lrcsi_part_set)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->scene->facet_count, 1));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(2, edges, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_body)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(DEPTH_PAIRS, sizeof(band_pair)));
-    return lrcsi_work_add(need, lrcsi_proximity_events_need(edges));
+    size_t facets = p->scene->facet_count;
+    size_t need = lrcsi_work_blocks(6, facets, sizeof(double));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
+    need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
+    return lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(uint32_t)));
 }
 
-/* Computes all fractions; scratch memory is released:
-   1. the events and their grid (band_events);
-   2. outlines of parts (lrcsi_outline_make) and parts as convex bodies (lrcsi_body_make);
-   3. facets near those of other parts (add_pairs);
-   4. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   5. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it: who
-      uses them compares the areas that they stand for with the facet's. */
+/* Computes all fractions:
+   1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
+   2. facets near those of other parts (add_pairs);
+   3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
+   4. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
+      who uses them compares the areas that they stand for with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const uint32_t parts = p->scene->part_count;
-    size_t mark = work->used;
-    job->box = lrcsi_work_take(work, parts, sizeof *job->box);
-    job->outline = lrcsi_work_take(work, parts, sizeof *job->outline);
-    job->pair = lrcsi_work_take_zero(work, DEPTH_PAIRS, sizeof *job->pair);
-    lrcsi_body *body = p->extent ? lrcsi_work_take(work, parts, sizeof *body) : NULL;
-    job->body = body;
-    int status = job->box && job->outline && job->pair && (body || !p->extent)
-                     ? band_events(job, work) /* 1 */
-                     : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        for (uint32_t i = 0; i < parts; i++) { /* 2 */
-            job->outline[i] = lrcsi_outline_make(job->view, i);
-            if (body) {
-                body[i] = lrcsi_body_make(p, i);
-            }
-        }
-        add_pairs(job); /* 3 */
-        band_boxes(job);
-        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            job->gain_aligned[f] = -1;
-            if (facet_matters(job->view, f)) {
-                facet_fractions(job, f); /* 4 */
-            }
-            job->mismatch[f] = lrcsi_min(1, job->mismatch[f]); /* 5 */
-            job->gain[f] = lrcsi_min(1, job->gain[f]);
-            job->loss[f] = lrcsi_min(1, job->loss[f]);
-            job->rows[f] = job->mismatch[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
+    lrcsi_proximity_band *band = job->band;
+    int status = lrcsi_event_bands_make(job->view, job->meter, work, &job->bands); /* 1 */
+    if (status != LRCS_OK) {
+        return status;
+    }
+    job->considered.entry =
+        lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
+    if (!job->considered.entry) {
+        return LRCS_E_MEMORY;
+    }
+    job->curved = lrcsi_box_empty();
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        const lrcsi_box *box = &job->bands.box[i];
+        if (box->low[0] <= box->high[0]) {
+            lrcsi_box_add(&job->curved, box->low);
+            lrcsi_box_add(&job->curved, box->high);
         }
     }
-    work->used = mark;
-    return status;
+    add_pairs(job); /* 2 */
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        band->gain_aligned[f] = -1;
+        if (facet_matters(job->view, f)) {
+            facet_fractions(job, f); /* 3 */
+        }
+        band->mismatch[f] = lrcsi_min(1, band->mismatch[f]); /* 4 */
+        band->gain[f] = lrcsi_min(1, band->gain[f]);
+        band->loss[f] = lrcsi_min(1, band->loss[f]);
+        band->rows[f] = band->mismatch[f] < 1 ? lrcsi_min(1, band->rows[f]) : 1;
+    }
+    return LRCS_OK;
 }
 
 void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned char *candidate,
@@ -707,16 +371,8 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    band_job job = {.view = view,
-                    .meter = meter,
-                    .mismatch = m.mismatch,
-                    .gain = m.gain,
-                    .loss = m.loss,
-                    .rows = m.rows,
-                    .gain_aligned = m.gain_aligned,
-                    .loss_aligned = m.loss_aligned,
-                    .free_sides = m.free_sides,
-                    .parts = m.parts};
+    size_t kept = work->used;
+    band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
                          m.free_sides && m.parts && m.region && m.hidden
                      ? all_fractions(&job, work)
@@ -725,6 +381,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
         work->used = mark;
         return status;
     }
+    work->used = kept;
     lrcsi_proximity_band_join(&m, NULL, m.region);
     *band = m;
     return LRCS_OK;

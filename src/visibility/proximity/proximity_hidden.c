@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What other parts hide of curved shapes in truth, where their facets are hidden: whole regions,
-   and groups of facets that meet the same bands (visibility/proximity/proximity_band.h, 7). Areas are not
-   computed here. */
+   and groups of facets that meet the same bands (visibility/proximity/proximity_band.c, 4). Areas
+   are not computed here. */
 #include "visibility/proximity/proximity_hidden.h"
 
 #include "base/work.h"

@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/* Decides how far from an event edge the visibility of the true shapes may differ from that of
+   their facets, and cuts a facet accordingly. Nothing is decided exactly: every distance is
+   increased by the errors of the positions between which it is measured. How bands add up is
+   decided in visibility/proximity/proximity_band.c. The letters, the conditions (1) and (2), and
+   the steps a to e are those of its proof 1.
+
+   1. Distance in projection. In the distance of (2) from y, a bound on the component of x - y
+   perpendicular to d may replace e_P, unless Q is open and k_Q > 0. On the curved wall of a shape
+   that is placed without distortion, the map moves points by known distances from or towards the
+   axis, along it, and tangentially (lrcs_part.displacement). The bound is the sum of the three, of
+   which the first two are multiplied by the sines of the angles between these directions and d. To
+   the sides of an event edge only the component of x - y perpendicular to the edge counts, since
+   the paths below cross the line of the edge only if that component and k_Q together reach it; at
+   the ends of the edge the whole bound counts.
+   Proof: it suffices to take for z the points x + v, |v| <= k_Q, and the straight paths from y to
+   them. In step b, the point s hides one of these z. In c, x is one of them. In d, if S hides all
+   of them, the ball of radius k_Q about x lies within k_Q of V; so x lies in V, and Q, without
+   openings, hides x. []
+
+   2. Gain and loss. An event edge is near if (2) holds for it. It is one-sided if all facets of Q
+   on it lie on the same side of it in projection, its inner side; the other side is its outer side.
+   Let a point move from y straight to one of the z, and let n be the number of facets of Q on its
+   ray. Unless (1) holds or a near edge is not one-sided, n rises from 0 only where the ray crosses
+   a near edge from its outer to its inner side, and falls to 0 only where it crosses one from its
+   inner to its outer side. It crosses the line of an edge at most once.
+   - Loss: Q hides x, but its facets do not hide y. Then (1) holds, or a near edge is not one-sided,
+     or y is on the outer side of a near edge. Proof: n rises from 0 on the path to the z of step b.
+   - Gain: the facets of Q hide y, but Q does not hide x. If Q is not open or k_Q = 0, (1) holds, or
+     a near edge is not one-sided, or y is on the inner side of a near edge. Proof: otherwise n
+     never falls to 0, so S hides all z, and Q hides x. The same is true if Q has one opening and x
+     is not in B: the ray of x enters B and leaves it, and passes the opening only once. For any
+     other Q, gain is possible on both sides.
+
+   3. Own part. A part never hides those of its own points that face the laser: they are the upper
+   side of its B. The inside of an open part, where it reflects (two-sided), is the lower side of B,
+   seen through an opening: the part does not hide x if and only if the projection of x lies in the
+   projected opening of W, and likewise y for S. Projected openings of W and S are convex and within
+   e of each other. So x and y agree, unless y is in projection within 2 e of a rim beyond which the
+   wall faces the laser, or may face it.
+
+   4. Parts in front. Where a Q with at most one opening is in front of the plane of a flat facet,
+   or a plane separates it from P behind it (visibility/proximity/part_order.c), (1) need not be
+   considered, and y is gained or lost along the event edge of (2) that is nearest to it, and there
+   only within the region of outline.h, 2. In it delta is the distance in projection of x from y,
+   and for the plane of a facet the error of outline.h, 1, as well. So along each edge the smaller
+   of two areas counts: that of the rectangle and that of the region.
+
+   5. Aligned points. Let x now be the point of the true surface whose projection is that of
+   y, so that both lie on a line along d, at a distance of at most 30 e_P. Let every other part Q be
+   in front of P or behind it (part_order.c, 1), or have no facet within 32 slacks of the facet of y
+   (scene/proximity.h). Then (1) need not be considered, and Q hides x if and only if its facets
+   hide y, unless an event edge of Q is, in projection, within r' of both and not 64 slacks behind
+   y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P = 0. Proof:
+   - If Q is behind P, it hides neither.
+   - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
+     a point z changes only where the projection of z crosses an event edge. So the steps b to e
+     hold for x in place of y with e_P = 0; in e a path that stays on W ends in front of x, so
+     that it reaches a rim.
+   - Otherwise no facet of Q is within r' of x, or between x and y, since both are within 30 e_P +
+     r' <= 32 slacks of y. So the facets of Q hide y if and only if they hide x, and what
+     proximity_band.c proves in 1 holds for x in place of y with e_P = 0. What 2 and 4 say of gain
+     and loss holds as well, with delta = 0. []
+   A side of a facet is free if every event edge of other parts that may matter is farther than r' +
+   2 e_P from it in projection. Then all points of the true surface whose projections are within
+   2 e_P of the side, and that are within 30 e_P of the facet, are visible, and so are the points of
+   the facet there; or all of them are hidden. The proof is the same.
+   These fractions are of the facet's projected area. They are used for facets that face the laser
+   (integrate/wall/round_pieces.h). */
+#include "visibility/proximity/event_band.h"
+
+#include <math.h>
+
+#include "base/range.h"
+#include "base/work.h"
+
+/* The projected areas of facets with a larger cosine than this are accurate to
+   LRCSI_EVENT_BAND_COS_ERR, relative: 30 u / 1e-4 is below 1e-10. */
+#define COS_MIN 1e-4
+
+static uint32_t facet_part(const lrcsi_event_bands *bands, uint32_t facet)
+{
+    return bands->view->prepared->scene->facet_part[facet];
+}
+
+/* 1 if an edge of the part is a rim whose wall faces the laser, or may face it; also 1 if the limit
+   of steps is reached. */
+static int own_rim(const lrcsi_event_bands *bands, const lrcsi_edge *edge, uint32_t part)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+    uint32_t count = 0;
+    int facing = 0;
+    if (!lrcsi_meter_take(bands->meter, edge->uses)) {
+        return 1;
+    }
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (facet_part(bands, use[i].facet) != part || p->skip[use[i].facet]) {
+            continue;
+        }
+        const lrcsi_normal *n = &p->normal[use[i].facet];
+        const double *d = bands->view->direction;
+        double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
+                        (n->length * bands->view->length);
+        count++;
+        facing |= cosine > -(p->scene->part[part].bounds.patch.turn + LRCSI_EVENT_BAND_COS_ERR);
+    }
+    return count == 1 && facing;
+}
+
+/* The distance in projection within which an event edge may change what is visible of a facet,
+   unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
+   can. */
+static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                          double lateral, int aligned)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    uint32_t part = facet_part(bands, facet);
+    if (aligned) {
+        return bands->events.part[event] == part
+                   ? 0
+                   : lrcsi_proximity_slack_aligned(p, bands->events.part[event]);
+    }
+    if (bands->events.part[event] == part) {
+        const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
+        return own_rim(bands, edge, part) ? 2 * p->proximity.reach[part] : 0;
+    }
+    return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
+}
+
+lrcsi_facet_search lrcsi_facet_search_make(const lrcsi_event_bands *bands, uint32_t facet)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const uint32_t part = facet_part(bands, facet);
+    double near = 2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
+    return (lrcsi_facet_search){
+        .where = lrcsi_edge_search_make(bands->view, &bands->events.grid, facet, near),
+        .inside = bands->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part),
+        .lateral = -1};
+}
+
+/* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
+   or without reach, and for parts with one opening if their boxes do not contain points of the
+   facet's patch. */
+static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_facet_search *search,
+                          uint32_t part)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_box *box = &bands->box[part];
+    int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
+    int apart = 0;
+    for (int k = 0; k < 3; k++) {
+        apart |= search->where.low[k] > box->high[k] || search->where.high[k] < box->low[k];
+    }
+    return openings == 0 || (openings == 1 && apart);
+}
+
+/* Is an event edge a rim inside the outline of its part? */
+static int rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
+    const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
+    uint32_t facets = 0;
+    int facing = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (facet_part(bands, use[i].facet) == bands->events.part[event]) {
+            facing = view->facing[use[i].facet];
+            facets++;
+        }
+    }
+    return facets == 1 &&
+           lrcsi_outline_inside(&bands->orders.outline[bands->events.part[event]], view, facing);
+}
+
+/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
+   event edge; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
+static void outline_fractions(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                              double delta, double *gain, double *loss)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
+    const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
+    double projected = lrcsi_view_projected(view, facet);
+    double whole = 0.5 * view->prepared->normal[facet].length;
+    lrcsi_outline_areas *areas = &bands->areas[event];
+    *gain = *loss = HUGE_VAL;
+    if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
+        return;
+    }
+    if (areas->gain < 0) {
+        const double *a = view->point[edge->low].x;
+        const double *b = view->point[edge->high].x;
+        *areas = rim_is_inside(bands, event)
+                     ? (lrcsi_outline_areas){0, 0, 0}
+                     : lrcsi_outline_areas_make(outline, a, b, bands->events.side[event]);
+    }
+    *gain = (areas->gain + areas->width * delta) / projected * (1 + LRCSI_EVENT_BAND_COS_ERR);
+    *loss = (areas->loss + areas->width * delta) / projected * (1 + LRCSI_EVENT_BAND_COS_ERR);
+}
+
+/* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
+   line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
+   component perpendicular to the edge counts. */
+static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands, uint32_t facet,
+                                            uint32_t event, const lrcsi_facet_search *search,
+                                            double slack, double wider)
+{
+    const lrcsi_topology *topology = &bands->view->prepared->topology;
+    lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
+        bands->view, facet, &topology->edge[bands->events.edge[event]], slack);
+    if (box.has_sides && !search->aligned) {
+        double across = lrcsi_displacement_along(&search->displacement, box.across) +
+                        box.rotation_err * search->lateral;
+        across = event_slack(bands, facet, event, lrcsi_min(across, search->lateral), 0) + wider;
+        box.half_width = lrcsi_min(across, slack) + box.err;
+    }
+    return box;
+}
+
+/* Finds the fractions near an event edge:
+   1. none if it is too far away, or an edge of the facet's own part of which it sees no inside;
+   2. none but what a proof leaves open if its part is behind the facet's;
+   3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
+   4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
+      the inner side as gain, on the outer side as loss;
+   5. but no more than the area between outlines, where the part is in front of the facet.
+   Returns 0 if there are none. */
+int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                          lrcsi_facet_search *search, lrcsi_event_band *f)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
+    int is_own = bands->events.part[event] == facet_part(bands, facet);
+    int side = is_own ? 0 : bands->events.side[event];
+    *f = (lrcsi_event_band){.unproved = 0};
+    if ((is_own && !search->inside) ||
+        lrcsi_edge_search_excludes(&search->where, bands->view->point[edge->low].x,
+                                   bands->view->point[edge->high].x)) {
+        return 0; /* 1 */
+    }
+    if (search->lateral < 0) {
+        search->displacement = lrcsi_proximity_displacement(p, facet);
+        search->lateral = lrcsi_displacement_across(&search->displacement, bands->view->unit);
+    }
+    double slack = event_slack(bands, facet, event, search->lateral, search->aligned);
+    double err = 0;
+    if (!(slack > 0)) {
+        return 0;
+    }
+    if (!is_own && lrcsi_part_is_behind(&bands->orders, facet, bands->events.part[event],
+                                        &f->unproved)) { /* 2 */
+        return f->unproved > 0;
+    }
+    int in_front = !is_own && lrcsi_part_is_in_front(&bands->orders, facet,
+                                                     bands->events.part[event], &err, &f->unproved);
+    slack += err;
+    lrcsi_edge_rectangle box = event_rectangle(bands, facet, event, search, slack, err); /* 3 */
+    lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
+    if (slice.count == 0 ||
+        (!is_own &&
+         lrcsi_edge_rectangle_behind(
+             bands->view, facet, edge,
+             (search->aligned ? LRCSI_PROXIMITY_NEAR : 1) *
+                 lrcsi_proximity_slack(p, facet_part(bands, facet), bands->events.part[event])))) {
+        return 0;
+    }
+    const uint32_t *vertex = p->scene->facet[facet].corner;
+    const double *const corner[3] = {bands->view->point[vertex[0]].x,
+                                     bands->view->point[vertex[1]].x,
+                                     bands->view->point[vertex[2]].x};
+    double whole = 0.5 * p->normal[facet].length; /* 4 */
+    double longest = lrcsi_proximity_longest(p, facet);
+    f->rows = lrcsi_proximity_rows(p, facet, corner, &slice);
+    f->area = f->gain = f->loss = lrcsi_slice_fraction(&slice, whole, longest);
+    if (side == 0) {
+        f->unproved = 0;
+        return 1;
+    }
+    lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
+    lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
+    if (gain_is_inside(bands, search, bands->events.part[event])) {
+        f->gain = lrcsi_slice_fraction(&inner, whole, longest);
+    }
+    f->loss = lrcsi_slice_fraction(&outer, whole, longest);
+    if (in_front) { /* 5 */
+        double delta = (search->aligned ? 0 : search->lateral) + err;
+        double gain;
+        double loss;
+        outline_fractions(bands, facet, event, delta, &gain, &loss);
+        f->area = lrcsi_min(f->area, gain + loss);
+        f->gain = lrcsi_min(f->gain, gain);
+        f->loss = lrcsi_min(f->loss, loss);
+    } else {
+        f->unproved = 0;
+    }
+    return 1;
+}
+
+unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                           lrcsi_facet_search *search)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    const uint32_t own = facet_part(bands, facet);
+    const double slack = lrcsi_proximity_slack(p, own, bands->events.part[event]);
+    unsigned sides = 0;
+    double unproved;
+    if (bands->events.part[event] == own ||
+        lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
+                                   view->point[edge->high].x) ||
+        lrcsi_part_is_behind(&bands->orders, facet, bands->events.part[event], &unproved) ||
+        lrcsi_edge_rectangle_behind(view, facet, edge, LRCSI_PROXIMITY_NEAR * slack)) {
+        return 0;
+    }
+    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
+        view, facet, edge,
+        lrcsi_proximity_slack_aligned(p, bands->events.part[event]) + 2 * p->proximity.reach[own]);
+    for (int k = 0; k < 3; k++) {
+        if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
+                                       view->point[corner[(k + 1) % 3]].x)) {
+            sides |= 1u << k;
+        }
+    }
+    return sides;
+}
+
+/* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes
+   that they are compared with are enlarged (lrcsi_edge_search_make). */
+static void make_part_boxes(const lrcsi_view *view, lrcsi_box *box)
+{
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        box[i] = lrcsi_box_empty();
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        uint32_t part = p->scene->facet_part[f];
+        if (!p->skip[f] && p->proximity.reach[part] > 0) {
+            double low[3];
+            double high[3];
+            lrcsi_view_bounds(view, p->scene->facet[f].corner, 3, low, high);
+            lrcsi_box_add(&box[part], low);
+            lrcsi_box_add(&box[part], high);
+        }
+    }
+}
+
+size_t lrcsi_event_bands_need(const lrcs_prepared *p)
+{
+    size_t edges = lrcsi_proximity_events_most(p);
+    size_t need = lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_box));
+    need = lrcsi_work_add(need, lrcsi_part_orders_need(p));
+    need = lrcsi_work_add(need, lrcsi_proximity_events_need(edges));
+    return lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
+}
+
+/* Made are: 1. the boxes of parts; 2. their outlines and convex bodies; 3. their event edges, in a
+   grid. */
+int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
+                           lrcsi_event_bands *bands)
+{
+    const uint32_t parts = view->prepared->scene->part_count;
+    *bands = (lrcsi_event_bands){.view = view, .meter = meter};
+    bands->box = lrcsi_work_take(work, parts, sizeof *bands->box);
+    if (!bands->box) {
+        return LRCS_E_MEMORY;
+    }
+    make_part_boxes(view, bands->box);
+    int status = lrcsi_part_orders_make(view, work, &bands->orders);
+    status = status == LRCS_OK ? lrcsi_proximity_events_make(view, work, &bands->events) : status;
+    if (status != LRCS_OK) {
+        return status;
+    }
+    bands->areas = lrcsi_work_take(work, bands->events.count, sizeof *bands->areas);
+    for (uint32_t i = 0; i < bands->events.count && bands->areas; i++) {
+        bands->areas[i].gain = -1;
+    }
+    return bands->areas ? LRCS_OK : LRCS_E_MEMORY;
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* The band of a facet about one event edge: which fractions of the facet lie so near the edge in
+   projection that the true shapes may hide them and their facets not, or the reverse; and which
+   sides of the facet an event edge comes near. */
+#ifndef LRCSI_EVENT_BAND_H
+#define LRCSI_EVENT_BAND_H
+
+#include "base/meter.h"
+#include "mesh/box.h"
+#include "scene/proximity.h"
+#include "visibility/proximity/edge_search.h"
+#include "visibility/proximity/part_order.h"
+#include "visibility/proximity/proximity_events.h"
+
+/* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
+   u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
+ */
+#define LRCSI_EVENT_BAND_COS_ERR 1e-9
+
+/* What the bands of a view are made from. */
+typedef struct lrcsi_event_bands {
+    const lrcsi_view *view;
+    lrcsi_meter *meter;
+    lrcsi_proximity_events events;
+    lrcsi_part_orders orders;
+    lrcsi_box *box;             /* part: that of its facets in the view, if the part is curved */
+    lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
+                                   and of its facets; gain < 0: not computed yet */
+} lrcsi_event_bands;
+
+/* Upper bound of the bytes for it. It stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY;
+   LRCS_E_LIMIT. */
+size_t lrcsi_event_bands_need(const lrcs_prepared *prepared);
+int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
+                           lrcsi_event_bands *bands);
+
+/* The search for event edges near a facet. */
+typedef struct lrcsi_facet_search {
+    lrcsi_edge_search where;
+    int inside; /* the laser may see the facet through an opening of its own part */
+    lrcsi_displacement displacement;
+    double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
+    int aligned; /* 1: points of facet and true surface correspond if their projections are equal */
+} lrcsi_facet_search;
+
+lrcsi_facet_search lrcsi_facet_search_make(const lrcsi_event_bands *bands, uint32_t facet);
+
+/* The fractions of a facet near an event edge. */
+typedef struct lrcsi_event_band {
+    double area, rows; /* of its area, of its rows, where the edge matters */
+    double gain, loss;
+    double unproved; /* where a proof about the edge's part does not hold */
+} lrcsi_event_band;
+
+/* Returns 0 if there are none. */
+int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                          lrcsi_facet_search *search, lrcsi_event_band *band);
+
+/* The sides of a facet near which an event edge of another part passes: bit k stands for the side
+   from corner k to k + 1. Edges of a part behind the facet's own do not matter. */
+unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                           lrcsi_facet_search *search);
+
+#endif
