@@ -23,7 +23,7 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
 int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
                          const lrcsi_proximity_band *band)
 {
-    if (band && band->hidden[band->region[facet]]) {
+    if (band && lrcsi_proximity_is_hidden(band, facet)) {
         return LRCSI_PATCH_HIDDEN;
     }
     if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
@@ -70,7 +70,7 @@ double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t fa
                                    const lrcsi_visible_area *visible,
                                    const lrcsi_proximity_band *band)
 {
-    return !band || band->hidden[band->region[facet]] || !(visible[facet].high > 0)
+    return !band || lrcsi_proximity_is_hidden(band, facet) || !(visible[facet].high > 0)
                ? 0
                : fmin(1, visible[facet].high / incidence->projected * (1 + 2 * incidence->error));
 }

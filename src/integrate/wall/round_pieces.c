@@ -286,7 +286,7 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
     int state = lrcsi_patch_state_of(job->view, facet, job->visible, band);
     return state == LRCSI_PATCH_PARTIAL ||
            (state == LRCSI_PATCH_HIDDEN && band->mismatch[facet] > 0 &&
-            !band->hidden[band->region[facet]]);
+            !lrcsi_proximity_is_hidden(band, facet));
 }
 
 /* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of

@@ -110,7 +110,7 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
     const lrcs_prepared *p = in->view->prepared;
     if (!(c->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
         !lrcsi_prepared_material(p, facet)->two_sided ||
-        (in->band && in->band->hidden[in->band->region[facet]])) {
+        (in->band && lrcsi_proximity_is_hidden(in->band, facet))) {
         return 0;
     }
     double cosine = -fabs(incidence->cos_theta);

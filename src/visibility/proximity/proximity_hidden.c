@@ -4,25 +4,25 @@
    are not computed here. */
 #include "visibility/proximity/proximity_hidden.h"
 
+#include <string.h>
+
 #include "base/work.h"
 
 /* A candidate for a query: at most this fraction of the facet may be visible. */
 #define CANDIDATE_FRACTION 0x1p-20
 
 /* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
-   facets is visible. */
+   facets is visible. Regions are marked anew, since other areas may tell less. */
 static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible_area *visible)
 {
     const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->hidden[f] = band->hidden[f] == LRCSI_HIDDEN_BY_QUERY ? LRCSI_HIDDEN_BY_QUERY : 0;
-    }
+    memset(band->region_hidden, 0, p->scene->facet_count);
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
             band->mismatch[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
-            band->hidden[f] == 0) {
-            band->hidden[band->region[f]] = LRCSI_HIDDEN_BY_AREA;
+            !band->facet_hidden[f]) {
+            band->region_hidden[band->region[f]] = 1;
         }
     }
 }
@@ -43,21 +43,21 @@ static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_vi
 }
 
 /* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
-   part is not asked: it hides no front, and the bands at its rims decide about its inside. */
+   part is not asked: it hides no front, and the bands at its rims decide about its inside. The
+   first facet of a group, which names it, is asked before the others are reached. */
 static void find_hidden_groups(lrcsi_proximity_band *band, const unsigned char *candidate,
                                const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
-        if (candidate[f] && group[f] == f &&
-            lrcsi_query_hidden_by_others(facets, f, others, meter)) {
-            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
+        if (!candidate[f]) {
+            continue;
         }
-    }
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        if (candidate[f] && band->hidden[group[f]] == LRCSI_HIDDEN_BY_QUERY) {
-            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
+        band->facet_hidden[f] =
+            group[f] == f ? (unsigned char)lrcsi_query_hidden_by_others(facets, f, others, meter)
+                          : band->facet_hidden[group[f]];
+        if (band->facet_hidden[f]) {
             band->mismatch[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
         }
     }

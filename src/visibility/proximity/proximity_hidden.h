@@ -6,12 +6,6 @@
 #include "visibility/proximity/proximity_band.h"
 #include "visibility/raster/visible.h"
 
-/* Values of lrcsi_proximity_band.hidden; 0: not known to be hidden. */
-enum lrcsi_proximity_hidden {
-    LRCSI_HIDDEN_BY_AREA = 1, /* from the visible area of a facet of the region; each time anew */
-    LRCSI_HIDDEN_BY_QUERY     /* by a query, which is exact and stays */
-};
-
 /* Bytes for lrcsi_proximity_find_hidden. */
 size_t lrcsi_proximity_hidden_need(const lrcs_prepared *prepared);
 
