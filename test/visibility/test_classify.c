@@ -223,8 +223,8 @@ static void check_joins(void)
         component[f] = region[f] = f;
     }
     for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        uint32_t pair[2];
-        int kind = lrcsi_edge_kind_of(&view, e, LRCS_NONE, pair);
+        lrcsi_edge_facets on;
+        int kind = lrcsi_edge_kind_of(&view, e, LRCS_NONE, &on);
         int listed = 0;
         for (uint32_t i = 0; i < classification.events.count; i++) {
             listed += classification.events.edge[i] == e;
@@ -232,9 +232,10 @@ static void check_joins(void)
         assert_int_equal(listed, kind == LRCSI_EDGE_EVENT);
         events += (uint32_t)listed;
         if (kind == LRCSI_EDGE_JOINS) {
-            lrcsi_disjoint_union(component, pair[0], pair[1]);
-            if (classification.joinable[pair[0]] != 0 && classification.joinable[pair[1]] != 0) {
-                lrcsi_disjoint_union(region, pair[0], pair[1]);
+            lrcsi_disjoint_union(component, on.facet[0], on.facet[1]);
+            if (classification.joinable[on.facet[0]] != 0 &&
+                classification.joinable[on.facet[1]] != 0) {
+                lrcsi_disjoint_union(region, on.facet[0], on.facet[1]);
             }
         }
     }

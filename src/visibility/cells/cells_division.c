@@ -3,6 +3,8 @@
    caller; cells are cut in visibility/cells/cells_cut.c. */
 #include "visibility/cells/cells_division.h"
 
+#include "visibility/index/event.h"
+
 lrcsi_cells_segment *lrcsi_division_segment(lrcsi_division *d)
 {
     if (d->segment_count == d->segment_room) {
@@ -15,20 +17,12 @@ lrcsi_cells_segment *lrcsi_division_segment(lrcsi_division *d)
 
 lrcsi_cells_segment *lrcsi_division_edge(lrcsi_division *d, uint32_t edge)
 {
-    const lrcsi_topology *t = &d->view->prepared->topology;
     lrcsi_cells_segment *e = lrcsi_division_segment(d);
-    uint32_t owners = 0;
-    for (uint32_t i = 0; e && i < t->edge[edge].uses; i++) {
-        uint32_t facet = t->use[t->edge[edge].first_use + i].facet;
-        if (lrcsi_view_casts(d->view, facet)) {
-            if (owners < 2) {
-                e->owner[owners] = facet;
-            }
-            owners++;
-        }
-    }
-    if (owners > 2) {
-        e->edge = edge;
+    if (e) {
+        const lrcsi_edge_facets on = lrcsi_edge_facets_of(d->view, edge, LRCS_NONE);
+        e->owner[0] = on.facet[0];
+        e->owner[1] = on.facet[1];
+        e->edge = on.count > 2 ? edge : LRCS_NONE;
     }
     return e;
 }

@@ -265,11 +265,11 @@ uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k)
     const lrcs_prepared *p = view->prepared;
     uint32_t other = p->neighbours.facet[facet].corner[k];
     if (other == facet) {
-        uint32_t pair[2];
+        lrcsi_edge_facets on;
         uint32_t edge = p->topology.facet_edge[facet].corner[k]; /* irregular */
-        return lrcsi_edge_kind_of(view, edge, LRCS_NONE, pair) != LRCSI_EDGE_JOINS ? LRCS_NONE
-               : pair[0] == facet                                                  ? pair[1]
-                                                                                   : pair[0];
+        return lrcsi_edge_kind_of(view, edge, LRCS_NONE, &on) != LRCSI_EDGE_JOINS
+                   ? LRCS_NONE
+                   : on.facet[on.facet[0] == facet];
     }
     return other < p->scene->facet_count && lrcsi_view_casts(view, other) &&
                    view->facing[other] == view->facing[facet]

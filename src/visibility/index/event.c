@@ -11,33 +11,42 @@
 /* --- one edge --------------------------------------------------------------------------------- */
 
 /* In projection a facet lies to the left of its side if it faces the laser, otherwise to the right.
-   Two facets lie on opposite sides of an edge if and only if they traverse it in opposite
-   directions and face the same way, or in the same direction and face opposite ways (as where the
-   winding of a surface changes). */
-int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2])
+ */
+lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uint32_t edge, uint32_t part)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcsi_topology *t = &p->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    uint32_t count = 0;
-    uint32_t forward = 0; /* facets that traverse the edge in its own direction */
-    int left = 0;         /* facets on the left of the edge, less those on the right */
+    lrcsi_edge_facets on = {.facet = {LRCS_NONE, LRCS_NONE}};
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
         uint32_t f = use[i].facet;
         if (part == LRCS_NONE ? lrcsi_view_casts(view, f)
                               : p->scene->facet_part[f] == part && !p->skip[f]) {
-            pair[count < 2 ? count : 1] = f;
-            count++;
-            forward += use[i].forward;
-            left += use[i].forward ? view->facing[f] : -view->facing[f];
+            int side = use[i].forward ? view->facing[f] : -view->facing[f];
+            if (on.count < 2) {
+                on.facet[on.count] = f;
+            }
+            on.count++;
+            on.forward += use[i].forward;
+            on.left += side > 0;
+            on.right += side < 0;
         }
     }
-    if (count == 0) {
-        return LRCSI_EDGE_UNUSED;
-    }
-    int opposite = count == 2 && left == 0;
-    int continues = part == LRCS_NONE || (forward == 1 && view->facing[pair[0]] != 0);
-    return opposite && continues ? LRCSI_EDGE_JOINS : LRCSI_EDGE_EVENT;
+    return on;
+}
+
+/* Two facets lie on opposite sides of an edge if and only if they traverse it in opposite
+   directions and face the same way, or in the same direction and face opposite ways (as where the
+   winding of a surface changes). */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part,
+                       lrcsi_edge_facets *facets)
+{
+    *facets = lrcsi_edge_facets_of(view, edge, part);
+    int opposite = facets->left == 1 && facets->right == 1 && facets->count == 2;
+    int continues = part == LRCS_NONE || facets->forward == 1;
+    return facets->count == 0      ? LRCSI_EDGE_UNUSED
+           : opposite && continues ? LRCSI_EDGE_JOINS
+                                   : LRCSI_EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */
@@ -125,8 +134,8 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
     }
     mark_plain(p, cast, mark);
     for (uint32_t i = 0; i < neighbours->irregular_count; i++) {
-        uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, pair) ==
+        lrcsi_edge_facets on;
+        if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, &on) ==
             LRCSI_EDGE_EVENT) {
             mark_edge_event(mark, neighbours->irregular[i]);
         }
@@ -225,12 +234,12 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         }
     }
     for (uint32_t i = 0; i < p->neighbours.irregular_count; i++) {
-        uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, p->neighbours.irregular[i], LRCS_NONE, pair) ==
+        lrcsi_edge_facets on;
+        if (lrcsi_edge_kind_of(view, p->neighbours.irregular[i], LRCS_NONE, &on) ==
                 LRCSI_EDGE_JOINS &&
-            joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
-            lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]),
-                                 group_entry(p, joinable, pair[1]));
+            joinable[on.facet[0]] != 0 && joinable[on.facet[1]] != 0) {
+            lrcsi_disjoint_union(group, group_entry(p, joinable, on.facet[0]),
+                                 group_entry(p, joinable, on.facet[1]));
         }
     }
     groups_name(p, joinable, group);

@@ -13,18 +13,31 @@ typedef struct lrcsi_events {
     uint32_t count;
 } lrcsi_events;
 
+/* The facets on an edge: those that can hide something in the view or, of one part, all live ones. */
+typedef struct lrcsi_edge_facets {
+    uint32_t count;
+    uint32_t facet[2]; /* the first two of them; LRCS_NONE for those that do not exist */
+    uint32_t forward;  /* how many traverse the edge from low to high */
+    uint32_t left,
+        right; /* how many lie to the left of it in projection, seen from low to high, and
+                             how many to the right; the others are seen edge-on */
+} lrcsi_edge_facets;
+
+/* part: LRCS_NONE, or a part of the scene. */
+lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uint32_t edge, uint32_t part);
+
 enum lrcsi_edge_kind {
     LRCSI_EDGE_UNUSED, /* none of its facets can hide anything */
     LRCSI_EDGE_JOINS,  /* exactly two can, on opposite sides of it in projection */
     LRCSI_EDGE_EVENT
 };
 
-/* The kind of an edge with any number of facets; if it joins two, they are returned in pair.
-   part: LRCS_NONE, or a part of the scene; the other parts are then ignored. Its facets count
-   whether or not they can hide anything, and two facets are joined only if their winding is
-   consistent and they are not edge-on: the true surface of the part continues from one to the
-   other. */
-int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2]);
+/* The kind of an edge with any number of facets, and these. part: as above; the other parts are
+   ignored. Its facets count whether or not they can hide anything, and two facets are joined only
+   if their winding is consistent and they are not edge-on: the true surface of the part continues
+   from one to the other. */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part,
+                       lrcsi_edge_facets *facets);
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 

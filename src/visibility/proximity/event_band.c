@@ -72,7 +72,9 @@
 #include <math.h>
 
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
+#include "visibility/index/event.h"
 
 /* The projected areas of facets with a larger cosine than this are accurate to
    LRCSI_EVENT_BAND_COS_ERR, relative: 30 u / 1e-4 is below 1e-10. */
@@ -83,29 +85,22 @@ static uint32_t facet_part(const lrcsi_event_bands *bands, uint32_t facet)
     return bands->view->prepared->scene->facet_part[facet];
 }
 
-/* 1 if an edge of the part is a rim whose wall faces the laser, or may face it; also 1 if the limit
-   of steps is reached. */
-static int own_rim(const lrcsi_event_bands *bands, const lrcsi_edge *edge, uint32_t part)
+/* 1 if an event edge is a rim of its part whose wall faces the laser, or may face it; also 1 if the
+   limit of steps is reached. */
+static int rim_may_face(const lrcsi_event_bands *bands, uint32_t event)
 {
-    const lrcs_prepared *p = bands->view->prepared;
-    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-    uint32_t count = 0;
-    int facing = 0;
-    if (!lrcsi_meter_take(bands->meter, edge->uses)) {
+    const lrcsi_view *view = bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t part = bands->events.part[event];
+    const uint32_t edge = bands->events.edge[event];
+    if (!lrcsi_meter_take(bands->meter, p->topology.edge[edge].uses)) {
         return 1;
     }
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (facet_part(bands, use[i].facet) != part || p->skip[use[i].facet]) {
-            continue;
-        }
-        const lrcsi_normal *n = &p->normal[use[i].facet];
-        const double *d = bands->view->direction;
-        double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
-                        (n->length * bands->view->length);
-        count++;
-        facing |= cosine > -(p->scene->part[part].bounds.patch.turn + LRCSI_EVENT_BAND_COS_ERR);
-    }
-    return count == 1 && facing;
+    const lrcsi_edge_facets on = lrcsi_edge_facets_of(view, edge, part);
+    const lrcsi_normal *n = &p->normal[on.facet[0]];
+    double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
+    return on.count == 1 &&
+           cosine > -(p->scene->part[part].bounds.patch.turn + LRCSI_EVENT_BAND_COS_ERR);
 }
 
 /* The distance in projection within which an event edge may change what is visible of a facet,
@@ -122,8 +117,7 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
                    : lrcsi_proximity_slack_aligned(p, bands->events.part[event]);
     }
     if (bands->events.part[event] == part) {
-        const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
-        return own_rim(bands, edge, part) ? 2 * p->proximity.reach[part] : 0;
+        return rim_may_face(bands, event) ? 2 * p->proximity.reach[part] : 0;
     }
     return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
 }
@@ -158,19 +152,10 @@ static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_facet_sear
 /* Is an event edge a rim inside the outline of its part? */
 static int rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
 {
-    const lrcsi_view *view = bands->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
-    const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
-    uint32_t facets = 0;
-    int facing = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (facet_part(bands, use[i].facet) == bands->events.part[event]) {
-            facing = view->facing[use[i].facet];
-            facets++;
-        }
-    }
-    return facets == 1 &&
-           lrcsi_outline_inside(&bands->orders.outline[bands->events.part[event]], view, facing);
+    const uint32_t part = bands->events.part[event];
+    const lrcsi_edge_facets on = lrcsi_edge_facets_of(bands->view, bands->events.edge[event], part);
+    return on.count == 1 && lrcsi_outline_inside(&bands->orders.outline[part], bands->view,
+                                                 bands->view->facing[on.facet[0]]);
 }
 
 /* The largest fractions of a facet, behind the event's part, that can be gained and lost along an

@@ -12,25 +12,6 @@
 /* Room for the entries of edges in cells. */
 #define EVENT_ENTRIES 8u
 
-/* On which side of an edge all facets of a part lie in projection: 1 left, -1 right; 0: on both, or
-   one is seen edge-on. */
-static int event_side(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t part)
-{
-    const lrcs_prepared *p = view->prepared;
-    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-    int left = 0;
-    int right = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        uint32_t f = use[i].facet;
-        if (p->scene->facet_part[f] == part && !p->skip[f]) {
-            int side = use[i].forward ? view->facing[f] : -view->facing[f];
-            left |= side >= 0;
-            right |= side <= 0;
-        }
-    }
-    return left - right;
-}
-
 /* Lists all events, each pair once; only counts them if events->edge is NULL. */
 static void list_events(const lrcsi_view *view, lrcsi_proximity_events *events)
 {
@@ -42,18 +23,20 @@ static void list_events(const lrcsi_view *view, lrcsi_proximity_events *events)
         const lrcsi_edge_use *use = topology->use + edge->first_use;
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t part = facet_part[use[i].facet];
-            uint32_t pair[2];
+            lrcsi_edge_facets on;
             int met = 0;
             for (uint32_t k = 0; k < i && !met; k++) {
                 met = facet_part[use[k].facet] == part;
             }
-            if (met || lrcsi_edge_kind_of(view, e, part, pair) != LRCSI_EDGE_EVENT) {
+            if (met || lrcsi_edge_kind_of(view, e, part, &on) != LRCSI_EDGE_EVENT) {
                 continue;
             }
             if (events->edge) {
                 events->edge[events->count] = e;
                 events->part[events->count] = part;
-                events->side[events->count] = (signed char)event_side(view, edge, part);
+                events->side[events->count] = on.left == on.count    ? 1
+                                              : on.right == on.count ? -1
+                                                                     : 0;
             }
             events->count++;
         }
