@@ -23,8 +23,31 @@ typedef struct lrcsi_edge_facets {
                              how many to the right; the others are seen edge-on */
 } lrcsi_edge_facets;
 
-/* part: LRCS_NONE, or a part of the scene. */
-lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uint32_t edge, uint32_t part);
+/* part: LRCS_NONE, or a part of the scene. A facet lies to the left of its side in projection if it
+   faces the laser, otherwise to the right. */
+static inline lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uint32_t edge,
+                                                     uint32_t part)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_topology *t = &p->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    lrcsi_edge_facets on = {.facet = {LRCS_NONE, LRCS_NONE}};
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        uint32_t f = use[i].facet;
+        if (part == LRCS_NONE ? lrcsi_view_casts(view, f)
+                              : p->scene->facet_part[f] == part && !p->skip[f]) {
+            int side = use[i].forward ? view->facing[f] : -view->facing[f];
+            if (on.count < 2) {
+                on.facet[on.count] = f;
+            }
+            on.count++;
+            on.forward += use[i].forward;
+            on.left += side > 0;
+            on.right += side < 0;
+        }
+    }
+    return on;
+}
 
 enum lrcsi_edge_kind {
     LRCSI_EDGE_UNUSED, /* none of its facets can hide anything */

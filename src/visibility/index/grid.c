@@ -97,30 +97,29 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
 /* To the errors of the sides are added the rounding errors of what is computed from them (points at
    t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate between the
    side's and the window's; and the rounding of boxes by 2^-24 of the latter. */
-void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
-                      lrcsi_view_segment *side)
+void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near)
 {
+    const lrcsi_grid *grid = walk->grid;
     const lrcsi_view_vertex *point = grid->view->point;
     double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
     rounding += near * grid->view->scale;
-    for (int k = 0; k < (count == 2 ? 1 : count); k++) {
-        side[k] = lrcsi_view_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
-                                          grid->view->scale, rounding);
+    walk->sides = count == 2 ? 1 : count;
+    for (int k = 0; k < walk->sides; k++) {
+        walk->side[k] = lrcsi_view_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
+                                                grid->view->scale, rounding);
     }
 }
 
-lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
-                               uint32_t y)
+lrcsi_grid_row lrcsi_grid_walk_limited(const lrcsi_grid_walk *walk, uint32_t y)
 {
+    const lrcsi_grid *grid = walk->grid;
     double bottom = y > 0 ? grid->low[1] + y / grid->buckets_per_unit : -HUGE_VAL;
     double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->buckets_per_unit : HUGE_VAL;
     double x[2];
-    lrcsi_grid_rect buckets = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
-    if (lrcsi_view_segments_range(side, sides, bottom, top, x)) {
-        buckets.x0 = lrcsi_grid_bucket(grid, x[0], 0);
-        buckets.x1 = (uint16_t)(lrcsi_grid_bucket(grid, x[1], 0) + 1);
-    }
-    return buckets;
+    return lrcsi_view_segments_range(walk->side, walk->sides, bottom, top, x)
+               ? (lrcsi_grid_row){y, lrcsi_grid_bucket(grid, x[0], 0),
+                                  lrcsi_grid_bucket(grid, x[1], 0) + 1u}
+               : (lrcsi_grid_row){y, 0, 0};
 }
 
 /* Counts or lists the edges. Returns the number of entries, or of those up to the first edge with
@@ -134,14 +133,14 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
         const uint32_t ends[2] = {e->low, e->high};
         const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
         const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
-        const int one_row = buckets.y1 - buckets.y0 == 1;
-        lrcsi_view_segment segment;
-        if (!one_row) {
-            lrcsi_grid_sides(grid, ends, 2, 0, &segment);
+        lrcsi_grid_walk walk;
+        lrcsi_grid_row row;
+        lrcsi_grid_walk_begin(grid, buckets, &walk);
+        if (buckets.y1 - buckets.y0 > 1) {
+            lrcsi_grid_walk_limit(&walk, ends, 2, 0);
         }
-        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
-            const lrcsi_grid_rect row = one_row ? buckets : lrcsi_grid_row(grid, &segment, 1, y);
-            listed += grid_put(grid, y, row.x0, row.x1, i);
+        while (lrcsi_grid_walk_next(&walk, &row)) {
+            listed += grid_put(grid, row.y, row.x0, row.x1, i);
         }
     }
     return listed;

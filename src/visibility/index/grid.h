@@ -45,15 +45,47 @@ static inline lrcsi_grid_rect lrcsi_grid_buckets(const lrcsi_grid *grid, const l
                                  (uint16_t)(lrcsi_grid_bucket(grid, (double)box->high[1], 1) + 1)};
 }
 
-/* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row. near: rows
-   include all buckets within this distance of them. */
-void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
-                      lrcsi_view_segment *side);
+/* A walk over a rectangle of buckets row by row; or over those of its rows that a polygon may
+   meet. */
+typedef struct lrcsi_grid_walk {
+    const lrcsi_grid *grid;
+    lrcsi_grid_rect left;       /* the rows that are left */
+    int sides;                  /* 0: whole rows */
+    lrcsi_view_segment side[3]; /* of the polygon, in the units of boxes */
+} lrcsi_grid_walk;
 
-/* The buckets of row y that a polygon with these sides, in the units of boxes, may meet; rows and
-   columns on the border extend to infinity. Empty (x0 == x1) if there are none. */
-lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
-                               uint32_t y);
+static inline void lrcsi_grid_walk_begin(const lrcsi_grid *grid, lrcsi_grid_rect rect,
+                                         lrcsi_grid_walk *walk)
+{
+    walk->grid = grid;
+    walk->left = rect;
+    walk->sides = 0;
+}
+
+/* Limits the rows of a walk to the buckets within the distance `near` of a facet (count 3) or an
+   edge (count 2). Rows and columns on the border extend to infinity. */
+void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near);
+
+/* Buckets x0 <= x < x1 of row y; x0 == x1: none. */
+typedef struct lrcsi_grid_row {
+    uint32_t y, x0, x1;
+} lrcsi_grid_row;
+
+/* Those of a row that the polygon may meet. */
+lrcsi_grid_row lrcsi_grid_walk_limited(const lrcsi_grid_walk *walk, uint32_t y);
+
+/* The next row of a walk. Returns 0 if none is left. */
+static inline int lrcsi_grid_walk_next(lrcsi_grid_walk *walk, lrcsi_grid_row *row)
+{
+    const uint32_t y = walk->left.y0;
+    if (y == walk->left.y1) {
+        return 0;
+    }
+    walk->left.y0++;
+    *row = walk->sides > 0 ? lrcsi_grid_walk_limited(walk, y)
+                           : (lrcsi_grid_row){y, walk->left.x0, walk->left.x1};
+    return 1;
+}
 
 /* A range of grid->item: from <= i < to. */
 typedef struct lrcsi_grid_items {

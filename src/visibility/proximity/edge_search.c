@@ -38,12 +38,17 @@ lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_gri
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     lrcsi_edge_search search = {.first = 0};
-    lrcsi_grid_sides(grid, corner, 3, near, search.side);
     lrcsi_view_bounds(view, corner, 3, search.low, search.high);
     for (int k = 0; k < 3; k++) {
         search.low[k] -= wide;
         search.high[k] += wide;
         search_line(&search, k, point, near);
+    }
+    const lrcsi_view_box box = lrcsi_view_box_round(view, search.low, search.high);
+    const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    lrcsi_grid_walk_begin(grid, buckets, &search.rows);
+    if (buckets.x1 - buckets.x0 > 1 && buckets.y1 - buckets.y0 > 1) {
+        lrcsi_grid_walk_limit(&search.rows, corner, 3, near);
     }
     return search;
 }

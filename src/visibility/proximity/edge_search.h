@@ -10,7 +10,7 @@
 
 typedef struct lrcsi_edge_search {
     double low[3], high[3];
-    lrcsi_view_segment side[3];
+    lrcsi_grid_walk rows;           /* over the buckets that may list such edges */
     double outward[3][2], limit[3]; /* beyond line k outward[k] . x > limit[k], errors included */
     int first;                      /* the line to try first: the one that excluded the last edge */
 } lrcsi_edge_search;

@@ -157,13 +157,11 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, lrcsi_facet
 static int add_events(band_job *job, uint32_t facet, lrcsi_facet_search *search)
 {
     const lrcsi_grid *grid = &job->bands.events.grid;
-    lrcsi_view_box box = lrcsi_view_box_round(job->view, search->where.low, search->where.high);
-    lrcsi_grid_rect cells = lrcsi_grid_buckets(grid, &box);
-    int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
+    lrcsi_grid_walk walk = search->where.rows;
+    lrcsi_grid_row row;
     lrcsi_marks_clear(&job->considered, job->bands.events.count);
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->where.side, 3, y) : cells;
-        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
+    while (lrcsi_grid_walk_next(&walk, &row)) {
+        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, row.y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             return 0;
         }

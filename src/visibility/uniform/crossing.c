@@ -185,7 +185,6 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t component = query->component;
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
     const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, &box);
-    const int slanted = all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS;
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
     const uint32_t allowed = metered < limit ? (uint32_t)metered : limit;
@@ -194,15 +193,16 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     uint32_t tests_left = query->is_limited ? MAX_TESTED : LRCS_NONE;
     uint32_t count = 0;
     int more = 0; /* an event was not examined because a limit was reached */
-    lrcsi_view_segment side[3];
-    if (slanted) { /* rows are limited to the buckets between the sides */
-        lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
+    lrcsi_grid_walk walk;
+    lrcsi_grid_row row;
+    lrcsi_grid_walk_begin(grid, all, &walk);
+    if (all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS) {
+        lrcsi_grid_walk_limit(&walk, view->prepared->scene->facet[facet].corner, 3, 0);
     }
-    for (uint32_t y = all.y0; y < all.y1 && !more; y++) {
-        const uint32_t *row = grid->first + (size_t)y * grid->size;
-        const lrcsi_grid_rect range = slanted ? lrcsi_grid_row(grid, side, 3, y) : all;
-        for (uint32_t x = range.x0; x < range.x1 && !more; x++) {
-            for (uint32_t i = row[x]; i < row[x + 1] && count < query->most; i++) {
+    while (!more && lrcsi_grid_walk_next(&walk, &row)) {
+        const uint32_t *first = grid->first + (size_t)row.y * grid->size;
+        for (uint32_t x = row.x0; x < row.x1 && !more; x++) {
+            for (uint32_t i = first[x]; i < first[x + 1] && count < query->most; i++) {
                 lrcsi_event_box *event = &search->event[grid->item[i]];
                 more = left == 0;
                 if (more) {
