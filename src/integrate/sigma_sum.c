@@ -131,9 +131,6 @@ static void areas_apply_proofs(lrcsi_sigma *run)
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int sampled = run->outcome.size != 0;
-    if (run->request.last < LRCSI_SIGMA_SUM) {
-        return;
-    }
     if (lrcsi_sigma_has_proofs(run)) {
         areas_apply_proofs(run);
     }
