@@ -150,7 +150,7 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
         if (!b->division.wanted[f]) {
             continue;
         }
-        int visible = surface && lrcsi_marked(&surface->member, f);
+        int visible = surface && lrcsi_marked(&surface->foreground, f);
         b->finding[f] |= visible ? LRCSI_FINDING_VISIBLE : LRCSI_FINDING_HIDDEN;
         b->division.area[f].uncertainty += uncertainty;
         if (visible) {
@@ -160,10 +160,10 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
 }
 
 /* The segments that a cell may be cut along. */
-enum cut_choice { CUT_SURFACE, CUT_EDGES, CUT_ANY };
+enum cut_choice { CUT_FOREGROUND, CUT_EDGES, CUT_ANY };
 
-/* The segment whose line divides the cell best, or NULL: of the surface's segments, of edges, or of
-   all. The score is the cell's width on the narrower side of the line, times the root of the
+/* The segment whose line divides the cell best, or NULL: of the segments of the foreground, of
+   edges, or of all. The score is the cell's width on the narrower side of the line, times the root of the
    segment's extent in the cell. So cells shrink fast, few become long and narrow, and few are cut
    where nothing changes. */
 static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcsi_cell *cell,
@@ -176,7 +176,8 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcs
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         if (choice == CUT_ANY || (choice == CUT_EDGES && !e->contact) ||
-            (choice == CUT_SURFACE && lrcsi_cells_segment_marked(topology, e, &surface->member))) {
+            (choice == CUT_FOREGROUND &&
+             lrcsi_cells_segment_marked(topology, e, &surface->foreground))) {
             double range[2];
             double extent = 0;
             for (int k = 0; k < 2; k++) {
@@ -228,11 +229,11 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     int covers =
         found && lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_LISTED, surface);
     if (found && !covers) {
-        cut = choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
     if (found && !covers && !cut) {
         covers = lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_IN_CELL, surface);
-        cut = covers ? NULL : choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = covers ? NULL : choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
     /* 3. Remove what is behind the component, if it covers the cell, or else behind a single facet
@@ -247,7 +248,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
         lrcsi_cells_cull(b, cell, &s, surface, thin, sample);
     }
     if (covers) {
-        cut = choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
     /* 4. Decide the cell if no event edge is left in it, or cut it. */
@@ -447,7 +448,7 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     d->area = lrcsi_work_take_zero(work, count, sizeof *d->area);
     sample->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     sample->covers = lrcsi_work_take_zero(work, count, sizeof *sample->covers);
-    surface->member.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    surface->foreground.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     surface->adjoining.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     b->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *b->frame.point);
     surface->facet = lrcsi_work_take(work, count, sizeof *surface->facet);
@@ -457,7 +458,7 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     surface->border = lrcsi_work_take(work, LRCSI_SURFACE_BORDERS, sizeof *surface->border);
     d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
     if ((job->moment && !job->reach) || !b->finding || !b->kind || !d->facet || !d->area ||
-        !sample->listed.entry || !sample->covers || !surface->member.entry ||
+        !sample->listed.entry || !sample->covers || !surface->foreground.entry ||
         !surface->adjoining.entry || !b->frame.point || !surface->facet || !sample->hit ||
         !d->facet_lists || !surface->border || !d->stack ||
         !lrcsi_block_grid_make(classification, answer, work, &b->grid)) {
