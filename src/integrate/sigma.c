@@ -13,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
@@ -158,8 +159,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     int status =
         lrcsi_view_face(prepared, pose, lrcsi_plan_backs(prepared, options), work, &run->view);
     if (status == LRCS_OK) {
-        run->view.progress = options->progress;
-        lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VIEW, 0, 0);
+        lrcsi_progress_report(options->progress, LRCS_PROGRESS_VIEW, 0, 0);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, work, &run->clear)
                      : LRCS_OK;
@@ -186,7 +186,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
         return status;
     }
     /* 4. Visible areas, and the sum over them. */
-    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
+    lrcsi_progress_report(options->progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
     return run_attempts(run);
 }
 
@@ -268,14 +268,15 @@ int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
 }
 
 /* Draws the requested picture of a view, which need not have coordinates. */
-static int image_draw(const lrcsi_view *view, lrcs_work *work, lrcs_image *image)
+static int image_draw(const lrcsi_view *view, lrcs_progress *progress, lrcs_work *work,
+                      lrcs_image *image)
 {
     lrcsi_raster raster;
     lrcsi_view projected = *view;
     size_t mark = work->used;
     int status = view->point ? LRCS_OK : lrcsi_view_project(work, &projected);
     if (status == LRCS_OK) {
-        status = lrcsi_raster_make(&projected, image->size, work, &raster);
+        status = lrcsi_raster_make(&projected, image->size, progress, work, &raster);
     }
     if (status == LRCS_OK) {
         lrcsi_image_fill(&projected, raster.owner, image);
@@ -300,7 +301,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     if (status == LRCS_OK && image && image->size != 0) {
-        status = image_draw(&run.view, work, image);
+        status = image_draw(&run.view, options->progress, work, image);
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {

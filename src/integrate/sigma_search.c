@@ -4,6 +4,7 @@
    over the areas are computed in sigma_sum.c. */
 #include <math.h>
 
+#include "base/progress.h"
 #include "base/work.h"
 #include "integrate/sigma_run.h"
 #include "visibility/raster/preview.h"
@@ -13,7 +14,7 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run->classified) {
         return LRCS_OK;
     }
-    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_CLASSIFY, 0, 0);
+    lrcsi_progress_report(run->request.options->progress, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
@@ -42,8 +43,8 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
     }
     int sum_only = !run->view.prepared->has_curved_shapes && !lrcsi_sigma_has_proofs(run);
     int status =
-        lrcsi_occlude_all(&run->classification, meter, run->work, sum_only ? &run->answer : NULL,
-                          run->visible, run->moment_memory);
+        lrcsi_occlude_all(&run->classification, meter, run->request.options->progress, run->work,
+                          sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
     /* Moments must belong to the areas (areas_apply_proofs). Where steps ran out, areas are
        uncertain, and corrections by moments would make bounds grow where more steps are left. */
     run->moment = run->plan.fronts_visible || meter->spent ? NULL : run->moment_memory;
@@ -73,6 +74,7 @@ static void find_by_limited_clipping(lrcsi_sigma *run, lrcsi_attempt *attempt)
    where that decides nothing, from samples. */
 static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempt *attempt)
 {
+    lrcs_progress *progress = run->request.options->progress;
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
     int undecided = 0;
@@ -94,9 +96,10 @@ static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempt *attempt)
     uint32_t size = attempt->size;
     do {
         status = attempt->samples_only
-                     ? lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided)
-                     : lrcsi_visible_areas_from_samples(&run->decisions, size, run->work, &raster,
-                                                        run->visible, &undecided);
+                     ? lrcsi_preview_make(&run->view, size, progress, run->work, run->visible,
+                                          &undecided)
+                     : lrcsi_visible_areas_from_samples(&run->decisions, size, progress, run->work,
+                                                        &raster, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
         size /= 2;

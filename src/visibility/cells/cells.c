@@ -479,8 +479,9 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
 }
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
-                       lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
-                       unsigned char *found, lrcsi_visible_area *visible, lrcsi_moment *moment)
+                       lrcs_progress *progress, lrcs_work *work, const unsigned char *answer,
+                       const unsigned char *wanted, unsigned char *found,
+                       lrcsi_visible_area *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
@@ -497,7 +498,7 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     if (cells_allocate(classification, answer, work, &job)) {
         uint32_t size = job.blocks.grid.size;
         for (uint32_t y = 0; y < size; y++) {
-            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, y, size);
+            lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, y, size);
             for (uint32_t x = 0; x < size; x++) {
                 process_block(&job, x, y);
             }
