@@ -89,7 +89,10 @@ typedef struct lrcs_run_options {
     lrcs_progress *progress; /* where the run says how far it is, or NULL */
     double *part_error_m2; /* where a run that succeeds writes, for each of the scene's parts, about
                               how much of budget.tessellation_m2 is due to it: what dividing the
-                              part more finely reduces. NULL: nowhere. Threads must not share it */
+                              part more finely reduces. NULL: nowhere. Threads must not share it.
+                              Like progress it stands here, and not among the outputs of each
+                              function that runs a pose, because it costs memory and time, and few
+                              callers want it */
 } lrcs_run_options;
 
 /* 1e-4, auto, 0, 0, 0, 0, bound, NULL, NULL.

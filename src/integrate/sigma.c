@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* Computes one pose, from a prepared scene to a result. This file decides in which order the stages
-   run, and what memory they need. The stages, in the order of lrcsi_sigma_stages:
-   1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make;
-   2. where no shadows are searched for, lrcsi_sigma_sum_unshadowed (sigma_sum.c);
-   3. elsewhere lrcsi_sigma_search (sigma_search.c): view coordinates, the classification, visible
-      areas by clipping or from samples, and their sum, lrcsi_sigma_sum (sigma_sum.c). */
+   run, and what memory they need. Called, in this order:
+   1. lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make: the view, and what it
+      calls for;
+   2. where no shadows are searched for, lrcsi_sigma_sum_unshadowed (sigma_sum.c), and that is all;
+   3. lrcsi_view_project, lrcsi_sigma_classify (sigma_search.c): view coordinates, undecided facets;
+   4. until an answer is accepted: lrcsi_attempts_next (sigma_attempt.c) chooses a method or a
+      resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it, lrcsi_sigma_sum
+      (sigma_sum.c) sums over them. */
 #include "integrate/sigma.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
@@ -120,36 +124,70 @@ static int run_take(lrcsi_sigma *run)
 
 /* --- the stages ------------------------------------------------------------------------------- */
 
+/* Finds visible areas where shadows are searched for, and sums over them: attempt by attempt, until
+   a sum is accepted or no other attempt would improve it. */
+static int run_attempts(lrcsi_sigma *run)
+{
+    lrcsi_attempts attempts = {.last = {.method = LRCS_METHOD_AUTO}};
+    int status = LRCS_OK;
+    if (run->plan.previews) {
+        run->cost = lrcsi_cost_count(&run->view);
+    }
+    while (status == LRCS_OK && lrcsi_attempts_next(run, &attempts)) { /* which method, how fine */
+        lrcsi_attempt *attempt = &attempts.last;
+        status = lrcsi_sigma_search(run, attempt); /* visible areas */
+        if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
+            run->request.last == LRCSI_SIGMA_SUM) {
+            lrcsi_sigma_sum(run, &attempt->meter);
+        }
+        lrcsi_sigma_search_end(run, attempt);
+    }
+    lrcsi_sigma_release_decisions(run);
+    return status;
+}
+
 int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *prepared,
                        const lrcs_pose *pose, lrcs_work *work, lrcsi_sigma *run)
 {
     const lrcs_run_options *options = request->options;
-    const lrcsi_view_backs backs = lrcsi_plan_backs(prepared, options);
     memset(run, 0,
            sizeof *run); /* not a compound literal, which takes as much of the stack again */
     run->request = *request;
     run->work = work;
     run->meter.limit = options->steps != 0 ? options->steps : UINT64_MAX;
-    int status = lrcsi_view_face(prepared, pose, backs, work, &run->view);
+    /* 1. The view, and what it calls for. */
+    int status =
+        lrcsi_view_face(prepared, pose, lrcsi_plan_backs(prepared, options), work, &run->view);
     if (status == LRCS_OK) {
-        run->view.progress = options->progress;
-        lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VIEW, 0, 0);
+        lrcsi_progress_report(options->progress, LRCS_PROGRESS_VIEW, 0, 0);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, work, &run->clear)
                      : LRCS_OK;
     }
-    if (status == LRCS_OK) {
-        run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
-        run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
-        status = run_take(run);
+    if (status != LRCS_OK) {
+        return status;
     }
-    if (status != LRCS_OK || !run_is_unshadowed(run)) {
-        return status == LRCS_OK ? lrcsi_sigma_search(run) : status;
+    run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
+    run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
+    status = run_take(run);
+    /* 2. Without a search for shadows: the sum over the areas that the plan implies. */
+    if (status != LRCS_OK || run_is_unshadowed(run)) {
+        if (status == LRCS_OK && request->last == LRCSI_SIGMA_SUM) {
+            lrcsi_sigma_sum_unshadowed(run);
+        }
+        return status;
     }
-    if (request->last == LRCSI_SIGMA_SUM) {
-        lrcsi_sigma_sum_unshadowed(run);
+    /* 3. View coordinates, and which facets are undecided, unless samples alone decide. */
+    status = lrcsi_view_project(work, &run->view);
+    if (status == LRCS_OK && request->last >= LRCSI_SIGMA_CLASSIFY && !run->plan.samples_only) {
+        status = lrcsi_sigma_classify(run, &run->meter);
     }
-    return LRCS_OK;
+    if (status != LRCS_OK || request->last <= LRCSI_SIGMA_CLASSIFY) {
+        return status;
+    }
+    /* 4. Visible areas, and the sum over them. */
+    lrcsi_progress_report(options->progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
+    return run_attempts(run);
 }
 
 double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
@@ -230,14 +268,15 @@ int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
 }
 
 /* Draws the requested picture of a view, which need not have coordinates. */
-static int image_draw(const lrcsi_view *view, lrcs_work *work, lrcs_image *image)
+static int image_draw(const lrcsi_view *view, lrcs_progress *progress, lrcs_work *work,
+                      lrcs_image *image)
 {
     lrcsi_raster raster;
     lrcsi_view projected = *view;
     size_t mark = work->used;
     int status = view->point ? LRCS_OK : lrcsi_view_project(work, &projected);
     if (status == LRCS_OK) {
-        status = lrcsi_raster_make(&projected, image->size, work, &raster);
+        status = lrcsi_raster_make(&projected, image->size, progress, work, &raster);
     }
     if (status == LRCS_OK) {
         lrcsi_image_fill(&projected, raster.owner, image);
@@ -262,7 +301,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     if (status == LRCS_OK && image && image->size != 0) {
-        status = image_draw(&run.view, work, image);
+        status = image_draw(&run.view, options->progress, work, image);
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {

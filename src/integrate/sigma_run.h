@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What a run of a pose is asked for, its state, and the functions by which its three files share
-   the work: sigma.c runs the stages, sigma_search.c finds visible areas, sigma_sum.c sums over
-   them. */
+/* What a run of a pose is asked for, its state, and the functions by which its four files share
+   the work: sigma.c runs the stages, sigma_attempt.c chooses how visible areas are searched for,
+   sigma_search.c finds them, sigma_sum.c sums over them. */
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
+#include "integrate/cost.h"
 #include "integrate/sum/total.h"
 
 enum lrcsi_sigma_stage {
@@ -15,7 +16,7 @@ enum lrcsi_sigma_stage {
     LRCSI_SIGMA_STAGES
 };
 
-/* The answer of a run, and how it was found. */
+/* The answer of a run, or of its last attempt, and how it was found. */
 typedef struct lrcsi_outcome {
     int method; /* lrcs_method; as planned, unless another one had to follow */
     const char *reason;
@@ -41,9 +42,13 @@ typedef struct lrcsi_sigma {
     lrcsi_clear_shapes
         clear;       /* shapes that are evaluated by their closed forms: method auto only */
     lrcsi_plan plan; /* is not changed once it is made */
+    lrcsi_cost cost; /* if the plan has previews */
     int classified;  /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
     lrcsi_proximity_band band;
+    int decided; /* decisions are made: by the first raster, for all of them */
+    lrcsi_decisions decisions;
+    size_t decisions_mark; /* of the work area before decisions, which are the last item in it */
     lrcsi_visible_area *visible;           /* [facet_count]; NULL: the plan implies all areas */
     const unsigned char *answer;           /* as in lrcsi_areas */
     lrcsi_moment *moment_memory;           /* [facet_count]; NULL: moments are not wanted */
@@ -56,14 +61,62 @@ typedef struct lrcsi_sigma {
     lrcsi_outcome outcome;
 } lrcsi_sigma;
 
+/* How an attempt ended. */
+enum lrcsi_attempt_end {
+    LRCSI_ATTEMPT_FOUND,     /* visible areas were found */
+    LRCSI_ATTEMPT_ABANDONED, /* it took as many steps as it was allowed, and was not done */
+    LRCSI_ATTEMPT_REFUSED,   /* more facets are undecided than its limit allows for */
+    LRCSI_ATTEMPT_NO_MEMORY  /* the work area is too small for clipping */
+};
+
+/* An attempt to find visible areas whose sum is accepted. */
+typedef struct lrcsi_attempt {
+    int method;         /* LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER; AUTO: before the first one */
+    const char *reason; /* why this method */
+    double limit_ns;    /* the time that clipping may take, as estimated; HUGE_VAL: no limit */
+    uint32_t size;      /* of a raster */
+    int samples_only;   /* of a raster, as in lrcsi_plan */
+    int fallback;       /* a raster in place of clipping, for which memory was short */
+    lrcsi_meter meter;  /* the run's, with the limit of this attempt */
+    int end;            /* lrcsi_attempt_end */
+    size_t mark;        /* of the work area, before what an abandoned attempt leaves in it */
+} lrcsi_attempt;
+
+/* The attempts of a run so far: what the choice of the next one depends on. */
+typedef struct lrcsi_attempts {
+    lrcsi_attempt last;
+    uint32_t size;       /* of the next raster */
+    uint32_t rasters;    /* chosen so far */
+    double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
+} lrcsi_attempts;
+
 /* The size of the finest raster: a finer one would improve the bound too little for its cost. */
 #define LRCSI_SIGMA_SIZE_MAX 4096u
 
+/* --- sigma_attempt.c -------------------------------------------------------------------------- */
+
+/* Chooses the next attempt. Given: *attempts, zeros before the first; run->outcome, which has the
+   sum of the last one. Returned: 1 with attempts->last, or 0 if the answer is accepted or no other
+   attempt would improve it. */
+int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
+
 /* --- sigma_search.c --------------------------------------------------------------------------- */
 
-/* Projects the view, and computes visible areas and their sum, where shadows are searched for.
+/* Finds which facets are undecided, and the proximity band if the plan needs it; once per pose.
    Status: as lrcs_sigma_run. */
-int lrcsi_sigma_search(lrcsi_sigma *run);
+int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
+
+/* Makes an attempt: finds visible areas. Returned: attempt->end and, if they were found, the areas
+   and run->outcome, without its total. Status: LRCS_OK, however the attempt ended; others as
+   lrcs_sigma_run. */
+int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempt *attempt);
+
+/* Ends an attempt after the sum over its areas: its steps count as the run's, and it is abandoned
+   if it has spent those of its limit. */
+void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt);
+
+/* Releases the memory that rasters share: before other memory is taken that is to stay. */
+void lrcsi_sigma_release_decisions(lrcsi_sigma *run);
 
 /* --- sigma_sum.c ------------------------------------------------------------------------------ */
 
@@ -84,7 +137,7 @@ int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);
 lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records);
 
 /* Fills run->outcome.total from the areas that samples or clipping found. Steps are taken from the
-   given meter, which is that of the run or of an attempt. */
+   given meter, which is that of the attempt that found them. */
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter);
 
 /* The same where no shadows are searched for. */

@@ -4,6 +4,7 @@
    whether the answer is accepted. */
 #include <math.h>
 
+#include "base/progress.h"
 #include "base/range.h"
 #include "integrate/sigma_run.h"
 #include "visibility/proximity/proximity_hidden.h"
@@ -43,8 +44,9 @@ uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run)
 
 lrcsi_curve_options lrcsi_sigma_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter)
 {
-    return (lrcsi_curve_options){&run->plan, run->request.options->tolerance, meter, run->stack,
-                                 run->request.derivatives};
+    const lrcs_run_options *options = run->request.options;
+    return (lrcsi_curve_options){&run->plan,        options->tolerance, meter,
+                                 options->progress, run->stack,         run->request.derivatives};
 }
 
 static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
@@ -56,7 +58,7 @@ lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
-    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
+    lrcsi_progress_report(run->request.options->progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
                             &run->clear, &details);
 }
@@ -131,9 +133,6 @@ static void areas_apply_proofs(lrcsi_sigma *run)
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int sampled = run->outcome.size != 0;
-    if (run->request.last < LRCSI_SIGMA_SUM) {
-        return;
-    }
     if (lrcsi_sigma_has_proofs(run)) {
         areas_apply_proofs(run);
     }

@@ -8,7 +8,6 @@
 
 #include <math.h>
 
-#include <lrcs/options.h>
 #include <lrcs/pose.h>
 
 #include "base/constant.h"
@@ -52,21 +51,7 @@ typedef struct lrcsi_view {
     double low[2], side;      /* the square window around the projection of the live facets */
     uint32_t front, back;     /* live facets facing either way */
     lrcsi_view_backs backs;
-    lrcs_progress *progress; /* the caller's, in which a run of this view reports its progress; may
-                                be NULL */
 } lrcsi_view;
-
-/* Reports how many parts of a stage are done, and how many there are (lrcs_progress_stage), unless
-   progress is NULL. */
-static inline void lrcsi_progress_report(lrcs_progress *progress, int stage, uint32_t done,
-                                         uint32_t total)
-{
-    if (progress) {
-        progress->stage = (uint32_t)stage;
-        progress->done = done;
-        progress->total = total;
-    }
-}
 
 /* A view without coordinates (point, scale and the window), which method facet does not need;
    lrcsi_view_project adds them. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;

@@ -121,9 +121,9 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
 /* 1. Queries of uniform facets. 2. Undecided facets together, if there are many. 3. One by one,
    those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
    used here, or the areas of all facets. */
-int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible_area *visible,
-                      lrcsi_moment *moment)
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
+                      lrcs_progress *progress, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible_area *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     const lrcs_prepared *p = view->prepared;
@@ -147,8 +147,8 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     }
     if (status == LRCS_OK && left >= MIN_UNDECIDED && left >= count / MIN_FRACTION &&
         can_process_together(p)) {
-        lrcsi_cells_areas(classification, meter, work, o.answer, classification->undecided, found,
-                          visible, moment);
+        lrcsi_cells_areas(classification, meter, progress, work, o.answer,
+                          classification->undecided, found, visible, moment);
         for (uint32_t f = 0; f < count; f++) {
             left -= found[f];
         }
@@ -160,7 +160,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
         if (!classification->undecided[f] || found[f]) {
             continue;
         }
-        lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
+        lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(&o, f);
         visible[f] = lrcsi_occlude_area(&o);
         if (moment) {

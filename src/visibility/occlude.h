@@ -4,6 +4,7 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
+#include "base/progress.h"
 #include "visibility/cells/facet_cells.h"
 
 /* Data for all facets of a view, and the current facet. */
@@ -58,8 +59,8 @@ lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.
    Unless NULL, moment[] has the moments of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
-int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible_area *visible,
-                      lrcsi_moment *moment);
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
+                      lrcs_progress *progress, lrcs_work *work, const unsigned char **answer,
+                      lrcsi_visible_area *visible, lrcsi_moment *moment);
 
 #endif

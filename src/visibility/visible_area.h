@@ -47,7 +47,6 @@ static inline lrcsi_visible_area lrcsi_visible_area_proved(const lrcsi_view *vie
 typedef struct lrcsi_moment {
     double first[2];
     double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
-    double reach; /* scratch of its computation: the largest distance from c of what is visible */
 } lrcsi_moment;
 
 #endif

@@ -504,7 +504,7 @@ static int scene_is_refined(outcome *got)
     parts_read(&scene);
     assert_int_equal(pose_at(NULL, 0, &at), LRCS_OK);
     int status = lrcs_host_scene_run(&scene, &at, &run, &result, NULL, NULL, NULL, &error);
-    while (status == LRCS_OK && lrcs_host_scene_refine(&scene, &run, &result, &build)) {
+    while (status == LRCS_OK && lrcs_host_scene_refine(&scene, &run, &result, NULL, &build)) {
         finer++;
         status = lrcs_host_scene_run(&scene, &at, &run, &result, NULL, NULL, NULL, &error);
     }

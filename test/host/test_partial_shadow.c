@@ -96,7 +96,7 @@ static void check_method(int method, const double *tolerance, int count)
                     lrcs_host_scene_run(&scene, &pose, &options, &result, NULL, NULL, NULL, &error),
                     LRCS_OK);
                 check_row(&row[i], &result, tolerance[t]);
-            } while (lrcs_host_scene_refine(&scene, &options, &result, &build));
+            } while (lrcs_host_scene_refine(&scene, &options, &result, part_error, &build));
             met += !(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
         }
         lrcs_host_scene_free(&scene);

@@ -165,7 +165,7 @@ static int refine(lrcs_host_scene *scene, const lrcs_pose *pose, const lrcs_run_
     assert_true(scene->scene.part_count <= 64);
     options.part_error_m2 = by_part ? part_error : NULL;
     run(scene, pose, &options, result);
-    while (lrcs_host_scene_refine(scene, &options, result, build)) {
+    while (lrcs_host_scene_refine(scene, &options, result, options.part_error_m2, build)) {
         run(scene, pose, &options, result);
         times++;
     }

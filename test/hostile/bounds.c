@@ -323,7 +323,8 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, NULL, &work, o->answer, wanted, decided, together, NULL);
+    lrcsi_cells_areas(&classification, NULL, NULL, &work, o->answer, wanted, decided, together,
+                      NULL);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         if (decided[f]) {
             check_bounds(c, &view, f, &together[f], 1);

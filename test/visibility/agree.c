@@ -104,7 +104,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         wanted[f] = lrcsi_view_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&classification, NULL, work, NULL, wanted, decided, found, NULL);
+    lrcsi_cells_areas(&classification, NULL, NULL, work, NULL, wanted, decided, found, NULL);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
     must(lrcsi_facet_cells_make(&classification, NULL, &o.cover.facets, work, &a));

@@ -39,7 +39,7 @@ static uint32_t ask(uint32_t *left)
         asked += wanted[f];
     }
     memset(moment, 0, sizeof moment);
-    lrcsi_cells_areas(&classification, limit, &work, NULL, wanted, finished, found, moment);
+    lrcsi_cells_areas(&classification, limit, NULL, &work, NULL, wanted, finished, found, moment);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         open[f] = wanted[f] && !finished[f];
         *left += open[f];
@@ -602,7 +602,7 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         wanted[f] = 1;
     }
-    lrcsi_cells_areas(&classification, NULL, &work, answer, wanted, finished, found, NULL);
+    lrcsi_cells_areas(&classification, NULL, NULL, &work, answer, wanted, finished, found, NULL);
     uint32_t hidden = 0;
     uint32_t crossed = 0;
     double seen = 0;

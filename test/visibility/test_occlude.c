@@ -400,9 +400,11 @@ static void answers_and_areas_tell_what_areas_alone_tell(void **state)
         some[f] = untouched;
     }
     size_t used = work.used;
-    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, all, NULL), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, NULL, &work, NULL, all, NULL),
+                     LRCS_OK);
     assert_int_equal(work.used, used);
-    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, &answer, some, NULL), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, NULL, &work, &answer, some, NULL),
+                     LRCS_OK);
     for (uint32_t f = 0; f < SECTORS + 3; f++) {
         double whole = lrcsi_view_projected(&view, f);
         int undecided = answer[f] == LRCSI_QUERY_UNDECIDED;

@@ -69,12 +69,12 @@ static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted
 {
     int undecided = 7;
     size_t mark = work.peak = work.used;
-    assert_int_equal(lrcsi_preview_make(view, size, &work, visible, &undecided), LRCS_OK);
+    assert_int_equal(lrcsi_preview_make(view, size, NULL, &work, visible, &undecided), LRCS_OK);
     assert_true(work.peak - mark <= lrcsi_preview_need(view->prepared, size));
     assert_int_equal(work.used, mark);
     assert_int_equal(undecided, 0);
     lrcsi_raster raster;
-    assert_int_equal(lrcsi_raster_make(view, size, &work, &raster), LRCS_OK);
+    assert_int_equal(lrcsi_raster_make(view, size, NULL, &work, &raster), LRCS_OK);
     for (size_t i = 0; i < (size_t)size * size; i++) {
         if (raster.owner[i] != LRCS_NONE) {
             raster.owned[raster.owner[i]]++;
@@ -160,7 +160,7 @@ static void facets_without_samples_show_what_those_beside_them_show(void **state
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 40);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 0.5, 30); /* inside the first */
     lrcsi_view view = seen_from(2);
-    assert_int_equal(lrcsi_preview_make(&view, 24, &work, visible, &undecided), LRCS_OK);
+    assert_int_equal(lrcsi_preview_make(&view, 24, NULL, &work, visible, &undecided), LRCS_OK);
     double sum = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         sum += visible[f].area;
@@ -185,8 +185,9 @@ static void facets_with_few_samples_show_together_what_the_samples_count(void **
             }
             lrcsi_view view = seen_from(i);
             lrcsi_raster raster;
-            assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided), LRCS_OK);
-            assert_int_equal(lrcsi_raster_make(&view, size, &work, &raster), LRCS_OK);
+            assert_int_equal(lrcsi_preview_make(&view, size, NULL, &work, visible, &undecided),
+                             LRCS_OK);
+            assert_int_equal(lrcsi_raster_make(&view, size, NULL, &work, &raster), LRCS_OK);
             double sum = 0;
             double counted = 0;
             double outline = 0;
@@ -229,7 +230,7 @@ static void areas_do_not_depend_on_the_order_of_facets(void **state)
             scene_shuffle(&scene, seed);
         }
         lrcsi_view view = seen_from(2);
-        assert_int_equal(lrcsi_preview_make(&view, 30, &work, visible, &undecided), LRCS_OK);
+        assert_int_equal(lrcsi_preview_make(&view, 30, NULL, &work, visible, &undecided), LRCS_OK);
         double sum = 0;
         double likely = 0;
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -254,11 +255,11 @@ static void the_likely_error_is_near_the_error(void **state)
             lrcsi_view view = seen_from(i);
             lrcsi_classification classification;
             assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
-            assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, truth, NULL),
-                             LRCS_OK);
+            assert_int_equal(
+                lrcsi_occlude_all(&classification, NULL, NULL, &work, NULL, truth, NULL), LRCS_OK);
             for (uint32_t size = 32; size <= 512; size *= 4) {
                 int undecided;
-                assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided),
+                assert_int_equal(lrcsi_preview_make(&view, size, NULL, &work, visible, &undecided),
                                  LRCS_OK);
                 double error = 0;
                 double square = 0;
@@ -289,12 +290,13 @@ static void memory_below_the_need_is_refused(void **state)
     crowd();
     lrcsi_view view = seen_from(2);
     size_t mark = work.peak = work.used;
-    assert_int_equal(lrcsi_preview_make(&view, 50, &work, visible, &undecided), LRCS_OK);
+    assert_int_equal(lrcsi_preview_make(&view, 50, NULL, &work, visible, &undecided), LRCS_OK);
     size_t peak = work.peak - mark;
     for (size_t bytes = 0; bytes < peak; bytes += 1 + bytes / 7) {
         lrcs_work small = lrcs_work_make(work.bytes + work.used, bytes);
         undecided = 7;
-        assert_int_equal(lrcsi_preview_make(&view, 50, &small, visible, &undecided), LRCS_E_MEMORY);
+        assert_int_equal(lrcsi_preview_make(&view, 50, NULL, &small, visible, &undecided),
+                         LRCS_E_MEMORY);
         assert_int_equal(small.used, 0);
         assert_int_equal(undecided, 7);
     }

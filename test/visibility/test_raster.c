@@ -24,7 +24,7 @@ static lrcsi_raster drawn(const lrcsi_view *view, uint32_t size)
 {
     lrcsi_raster raster;
     size_t mark = work.used;
-    assert_int_equal(lrcsi_raster_make(view, size, &work, &raster), LRCS_OK);
+    assert_int_equal(lrcsi_raster_make(view, size, NULL, &work, &raster), LRCS_OK);
     work.used = mark;
     return raster;
 }

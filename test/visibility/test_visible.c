@@ -50,7 +50,7 @@ static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classi
     memset(work.bytes + work.used, untouched, need);
     size_t before = work.peak = work.used;
     assert_int_equal(
-        lrcsi_visible_areas_from_samples(known, N, &work, &raster, visible, &undecided_order),
+        lrcsi_visible_areas_from_samples(known, N, NULL, &work, &raster, visible, &undecided_order),
         LRCS_OK);
     assert_true(work.peak - before <= need);
     return raster;
@@ -69,7 +69,7 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
         lrcsi_decisions known;
         lrcsi_raster whole;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
-        assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
+        assert_int_equal(lrcsi_raster_make(&view, N, NULL, &work, &whole), LRCS_OK);
         for (uint32_t k = 0; k < N * N; k++) {
             if (whole.owner[k] != LRCS_NONE) {
                 whole.owned[whole.owner[k]]++;
@@ -164,7 +164,7 @@ static void pixels_covered_by_visible_facets_show_these_in_every_part(void **sta
         lrcsi_decisions known;
         lrcsi_raster fine;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
-        assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
+        assert_int_equal(lrcsi_raster_make(&view, N * FINE, NULL, &work, &fine), LRCS_OK);
         for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
             uint32_t x = k % (N * FINE) / FINE;
             uint32_t y = k / (N * FINE) / FINE;
@@ -192,12 +192,13 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     double all = 0;
     assert_int_equal(lrcsi_classify_make(view, NULL, &work, &classification), LRCS_OK);
     size_t mark = work.used;
-    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact, NULL), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, NULL, &work, NULL, exact, NULL),
+                     LRCS_OK);
     work.used = mark;
     assert_int_equal(lrcsi_decisions_make(&classification, &work, &known), LRCS_OK);
-    assert_int_equal(
-        lrcsi_visible_areas_from_samples(&known, size, &work, &raster, visible, &undecided_order),
-        LRCS_OK);
+    assert_int_equal(lrcsi_visible_areas_from_samples(&known, size, NULL, &work, &raster, visible,
+                                                      &undecided_order),
+                     LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         const lrcsi_visible_area *v = &visible[f];
         double rounding = 1e-14 * view->side * view->side;
@@ -267,8 +268,8 @@ static unsigned check_occluders(int direction)
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         answer[f] = lrcsi_view_casts(&view, f) ? LRCSI_QUERY_UNDECIDED : LRCSI_QUERY_HIDDEN;
     }
-    assert_int_equal(lrcsi_raster_make_undecided(&view, N, answer, &work, &raster), LRCS_OK);
-    assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
+    assert_int_equal(lrcsi_raster_make_undecided(&view, N, answer, NULL, &work, &raster), LRCS_OK);
+    assert_int_equal(lrcsi_raster_make(&view, N * FINE, NULL, &work, &fine), LRCS_OK);
     for (uint32_t y = 0; y < N * FINE; y++) {
         for (uint32_t x = 0; x < N * FINE; x++) {
             uint32_t pixel = y / FINE * N + x / FINE;

@@ -215,8 +215,8 @@ int cli_run_divide(run_job *job)
                     : cli_scene_run(scene, &job->pose, &options, &job->result, job->records, NULL,
                                     &job->seconds);
         cli_watch_stage("dividing curved shapes", NULL);
-        finer =
-            code == 0 && lrcs_host_scene_refine(scene, &options, &job->result, &job->load.build);
+        finer = code == 0 &&
+                lrcs_host_scene_refine(scene, &options, &job->result, part_error, &job->load.build);
         if (finer) {
             long_run_notice(job);
         }

@@ -128,13 +128,13 @@ typedef struct part_choice {
 
 /* The errors of the parts, in total that of the tessellation; where these are not known, all curved
    parts have the same. */
-static void choices_start(const lrcs_scene *scene, const lrcs_run_options *options,
-                          const lrcs_result *result, part_choice *choice)
+static void choices_start(const lrcs_scene *scene, const lrcs_result *result,
+                          const double *part_error_m2, part_choice *choice)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
-        double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
+        double error = part_error_m2 ? part_error_m2[i] : 1.0;
         double growth = lrcsi_shape_is_round(part->kind) ? 2.0 : sqrt(2.0);
         choice[i] = (part_choice){part->bounds.reach > 0.0 ? error : 0.0, part->facet_count, growth,
                                   !(part->bounds.reach > 0.0)};
@@ -216,7 +216,8 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
    halved has more error than is allowed: the tolerance is then out of reach. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
-                           const unsigned char *from, unsigned char *halvings)
+                           const double *part_error_m2, const unsigned char *from,
+                           unsigned char *halvings)
 {
     double allowed = error_allowed(options, result);
     part_choice *choice = calloc(levels->parts, sizeof *choice);
@@ -225,13 +226,13 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
     if (choice && allowed > 0.0) {
-        choices_start(scene, options, result, choice);
+        choices_start(scene, result, part_error_m2, choice);
         for (uint32_t i = 0; i < levels->parts; i++) {
             reachable &= choice[i].error <= allowed ||
                          part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
         }
         double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
-        choices_start(scene, options, result, choice);
+        choices_start(scene, result, part_error_m2, choice);
         if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
             SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
@@ -343,7 +344,8 @@ static lrcsi_host_level *level_get(const lrcs_host_scene *base, struct lrcsi_hos
 }
 
 lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_options *options,
-                                   const lrcs_result *result, lrcsi_host_level *from)
+                                   const lrcs_result *result, const double *part_error_m2,
+                                   lrcsi_host_level *from)
 {
     struct lrcsi_host_levels *levels = scene->levels;
     lrcsi_host_level *level = NULL;
@@ -354,7 +356,7 @@ lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_
     if (halvings) {
         const unsigned char *now = from ? from->halvings : levels->own;
         int finer = halvings_choose(levels, from ? &from->scene->scene : &scene->scene, options,
-                                    result, now, halvings);
+                                    result, part_error_m2, now, halvings);
         pthread_mutex_lock(&levels->lock);
         while (finer && !(level = level_get(scene, levels, halvings))) {
             finer = 0; /* too many facets, or too little memory: half of the way */

@@ -23,12 +23,13 @@ struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
 void lrcsi_host_levels_free(struct lrcsi_host_levels *levels);
 
 /* The level with which the tolerance is likely to be met, given what a pose returned at the level
-   `from` (NULL: the scene itself), which the pose no longer uses; options->part_error_m2, unless
+   `from` (NULL: the scene itself), which the pose no longer uses; part_error_m2[part_count], unless
    NULL, says which parts to divide. NULL if the tolerance is met, if the shapes are not what makes
    the pose miss it, or if they cannot be divided any finer. Built when first asked for; may be
    called from several threads. */
 lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_options *options,
-                                   const lrcs_result *result, lrcsi_host_level *from);
+                                   const lrcs_result *result, const double *part_error_m2,
+                                   lrcsi_host_level *from);
 
 /* Ends the use of a level, unless NULL. */
 void lrcsi_host_level_release(const lrcs_host_scene *scene, lrcsi_host_level *level);

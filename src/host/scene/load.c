@@ -385,9 +385,10 @@ int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
 }
 
 int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
-                           const lrcs_result *result, lrcs_build_options *build)
+                           const lrcs_result *result, const double *part_error_m2,
+                           lrcs_build_options *build)
 {
-    const lrcsi_host_level *level = lrcsi_host_finer(scene, options, result, NULL);
+    const lrcsi_host_level *level = lrcsi_host_finer(scene, options, result, part_error_m2, NULL);
     if (!level) {
         return 0;
     }

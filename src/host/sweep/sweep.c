@@ -98,7 +98,7 @@ static int sweep_pose(const sweep_run *run, uint32_t worker, const lrcs_host_sce
             status = pose_uncertainty(run, worker, at, &options, one);
         }
         if (status == LRCS_OK && sweep->refine) {
-            level = lrcsi_host_finer(scene, &options, &one->result, level);
+            level = lrcsi_host_finer(scene, &options, &one->result, part_error, level);
             at = level ? level->scene : NULL;
         } else {
             lrcsi_host_level_release(scene, level);

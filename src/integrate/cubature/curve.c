@@ -151,7 +151,7 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_progress_report(view->progress, LRCS_PROGRESS_INTEGRATE, f,
+        lrcsi_progress_report(options->progress, LRCS_PROGRESS_INTEGRATE, f,
                               view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
@@ -238,8 +238,9 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_progress_report(
-            view->progress, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f, count);
+        lrcsi_progress_report(options->progress,
+                              sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
+                              count);
         if (applies) {
             lrcsi_curve_integral_make(&context, f, &integral);
         }

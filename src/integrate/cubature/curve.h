@@ -26,6 +26,8 @@ typedef struct lrcsi_curve_options {
     const lrcsi_plan *plan; /* which terms of the BRDF are evaluated */
     double tolerance;       /* relative */
     lrcsi_meter *meter;     /* limit on steps; NULL: none */
+    lrcs_progress
+        *progress; /* where the integrals report how many facets are done; NULL: nowhere */
     lrcsi_cubature_cell *stack;
     int derivatives; /* 1: compute what derivatives need */
 } lrcsi_curve_options;

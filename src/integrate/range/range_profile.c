@@ -436,8 +436,8 @@ static int curved_take(profile_run *run, lrcsi_classification *classification, l
         }
     }
     if (p->has_curved_normals) {
-        run->curve_options =
-            (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, NULL, lrcsi_cubature_stack(work), 0};
+        run->curve_options = (lrcsi_curve_options){
+            &run->plan, CURVE_TOLERANCE, NULL, NULL, lrcsi_cubature_stack(work), 0};
         if (!run->curve_options.stack) {
             return LRCS_E_MEMORY;
         }

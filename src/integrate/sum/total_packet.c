@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over the facets of one material, in packets of LRCSI_LANES, in plain doubles
    (optics/shade.h). select_facets selects the facets that face the laser (lrcsi_view_dot),
-   keep_visible keeps those that are visible, and add_packet evaluates them. Facets that cannot be
-   evaluated in this way are added one by one (total_facet.c). */
+   divide_facets those of them that are visible and flat, and add_packet evaluates these. Facets that
+   cannot be evaluated in this way are added one by one (total_facet.c). */
 #include <string.h>
 
 #include "base/bits.h"
@@ -148,37 +148,44 @@ static void add_packet(lrcsi_total_run *run, total_batch *batch)
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Given the indices in the batches of facets that reflect, keeps those that are evaluated in
-   packets, and returns their number. Facets of clear shapes and facets with curved normals are
-   added here; hidden ones are counted. */
-static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t count, int side)
+/* Up to LRCSI_LANES facets, as indices in the batches. */
+typedef struct facet_list {
+    uint32_t count;
+    uint32_t element[LRCSI_LANES];
+} facet_list;
+
+/* Divides facets that reflect, from the side given, by how they are added. Given: `count` of them,
+   as indices in the batches. Returned: list[0 .. n - 1], those that are evaluated in packets, and
+   their number n; *clear, those of clear shapes; *curved, the visible ones with curved normals. The
+   others are hidden. */
+static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *list, uint32_t count,
+                              facet_list *clear, facet_list *curved)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
-    uint32_t left = count;
+    uint32_t left = 0;
+    clear->count = curved->count = 0;
     if (run->clear) {
-        left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_total_in_clear_shape(run, facet[list[k]])) {
-                lrcsi_total_add_clear(run, facet[list[k]]);
+                clear->element[clear->count++] = list[k];
             } else {
                 list[left++] = list[k];
             }
         }
+        count = left;
     }
-    count = left;
     left = 0;
     for (uint32_t k = 0; k < count; k++) { /* without branches */
         uint32_t at = list[k];
         list[left] = at;
         left += (uint32_t)side_may_be_visible(run, facet[at], side);
     }
-    run->total.hidden += count - left;
     if (run->curve_terms) {
         count = left;
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_curve_applies(run->view, facet[list[k]])) {
-                lrcsi_total_add_reflecting(run, facet[list[k]]);
+                curved->element[curved->count++] = list[k];
             } else {
                 list[left++] = list[k];
             }
@@ -187,12 +194,15 @@ static uint32_t keep_visible(lrcsi_total_run *run, uint32_t *list, uint32_t coun
     return left;
 }
 
-/* Collects the selected facets among the LRCSI_LANES from index `start` on, and adds the packet
-   once it is full. The facets reflect from the side that faces the laser: 1, or -1 for
-   their back. */
-static void batch_collect(lrcsi_total_run *run, total_batch *batch, uint32_t start,
-                          const uint64_t pick[LRCSI_LANES], int side)
+/* Adds the selected facets among the LRCSI_LANES from index `start` on, which reflect from the side
+   given, 1 for their front or -1 for their back:
+   1. lists them, and divides the list;
+   2. adds those of clear shapes and those with curved normals one by one, and counts hidden ones;
+   3. the others join the next packet, which is added once it is full. */
+static void add_selected(lrcsi_total_run *run, total_batch *batch, uint32_t start,
+                         const uint64_t pick[LRCSI_LANES], int side)
 {
+    const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t *list = batch->element + batch->waiting;
     uint32_t count = 0;
     for (uint32_t i = 0; i < LRCSI_LANES; i++) { /* without branches: facings follow no pattern */
@@ -200,7 +210,17 @@ static void batch_collect(lrcsi_total_run *run, total_batch *batch, uint32_t sta
         count += (uint32_t)(pick[i] >> 63);
     }
     if (run->areas->visible || run->clear || run->view->prepared->batches.redundant) {
-        count = keep_visible(run, list, count, side);
+        facet_list clear;
+        facet_list curved;
+        uint32_t packed = divide_facets(run, side, list, count, &clear, &curved);
+        for (uint32_t k = 0; k < clear.count; k++) {
+            lrcsi_total_add_clear(run, facet[clear.element[k]]);
+        }
+        for (uint32_t k = 0; k < curved.count; k++) {
+            lrcsi_total_add_reflecting(run, facet[curved.element[k]]);
+        }
+        run->total.hidden += count - packed - clear.count - curved.count;
+        count = packed;
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
         batch->side[batch->waiting + i] = (signed char)side;
@@ -294,8 +314,8 @@ static void select_facets(const lrcsi_total_run *run, const total_batch *batch, 
 /* Adds up to LRCSI_LANES facets from index `start` on:
    1. selects those that are evaluated in packets, except facets that represent patches of curved
       walls;
-   2. collects front sides for a packet;
-   3. collects back sides too if they reflect; otherwise adds their areas;
+   2. adds selected front sides;
+   3. adds selected back sides too if they reflect; otherwise only their areas;
    4. adds the others one by one: facets near grazing incidence or in the bright lobe of a narrow
       glint, and those of curved walls; for these also the tessellation error, while run->patches
       holds their patch. */
@@ -311,11 +331,11 @@ static void add_lanes(lrcsi_total_run *run, total_batch *batch, uint32_t start, 
         }
     }
     if (pick.any_front >> 63) {
-        batch_collect(run, batch, start, pick.front, 1);
+        add_selected(run, batch, start, pick.front, 1);
     }
     int back = (int)(pick.any_back >> 63);
     if (back && batch->back_reflects) { /* then they cast shadows, and may be visible */
-        batch_collect(run, batch, start, pick.back, -1);
+        add_selected(run, batch, start, pick.back, -1);
     } else if (back && batch->back_visible) {
         add_back_areas(run, batch, start, pick.back);
     }

@@ -65,6 +65,8 @@
 typedef struct cells_job {
     lrcsi_blocks blocks;
     lrcsi_moment *moment; /* facet: of its visible region; NULL: not wanted */
+    double *reach;        /* facet: the largest distance from its centroid of what is visible, for
+                             the error of its moment; NULL if that is not wanted */
     /* Of the current cell; here so that their arrays are allocated once: */
     lrcsi_cells_sample sample;
     lrcsi_cells_surface surface;
@@ -87,13 +89,13 @@ static int cell_is_wanted(const cells_job *job, const lrcsi_cell *cell)
 
 /* Adds a visible piece of a facet to its moment. The facet's centroid is known to within the error
    of its vertices, which moves the moment by that times the area of the piece. */
-static void add_visible_moment(lrcsi_moment *moment, const lrcsi_cells_facet *f,
+static void add_visible_moment(lrcsi_moment *moment, double *reach, const lrcsi_cells_facet *f,
                                const lrcsi_clip_polygon *piece)
 {
     const double centre[2] = {(f->x[0] + f->x[1] + f->x[2]) / 3, (f->y[0] + f->y[1] + f->y[2]) / 3};
     double size = lrcsi_max(f->high[0] - f->low[0], f->high[1] - f->low[1]);
-    double reach = lrcsi_clip_add_moment(piece, centre, moment->first);
-    moment->reach = lrcsi_max3(moment->reach, reach, size);
+    double farthest = lrcsi_clip_add_moment(piece, centre, moment->first);
+    *reach = lrcsi_max3(*reach, farthest, size);
     moment->error += (2 * f->err + 4 * LRCSI_U * size) * lrcsi_max(0, lrcsi_clip_area(piece));
 }
 
@@ -133,7 +135,7 @@ static void add_visible_area(cells_job *job, const lrcsi_cell *cell, const lrcsi
     }
     area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
     if (job->moment && piece.count >= 3) {
-        add_visible_moment(&job->moment[facet], f, &piece);
+        add_visible_moment(&job->moment[facet], &job->reach[facet], f, &piece);
     }
 }
 
@@ -148,7 +150,7 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
         if (!b->division.wanted[f]) {
             continue;
         }
-        int visible = surface && lrcsi_marked(&surface->member, f);
+        int visible = surface && lrcsi_marked(&surface->foreground, f);
         b->finding[f] |= visible ? LRCSI_FINDING_VISIBLE : LRCSI_FINDING_HIDDEN;
         b->division.area[f].uncertainty += uncertainty;
         if (visible) {
@@ -158,10 +160,10 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
 }
 
 /* The segments that a cell may be cut along. */
-enum cut_choice { CUT_SURFACE, CUT_EDGES, CUT_ANY };
+enum cut_choice { CUT_FOREGROUND, CUT_EDGES, CUT_ANY };
 
-/* The segment whose line divides the cell best, or NULL: of the surface's segments, of edges, or of
-   all. The score is the cell's width on the narrower side of the line, times the root of the
+/* The segment whose line divides the cell best, or NULL: of the segments of the foreground, of
+   edges, or of all. The score is the cell's width on the narrower side of the line, times the root of the
    segment's extent in the cell. So cells shrink fast, few become long and narrow, and few are cut
    where nothing changes. */
 static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcsi_cell *cell,
@@ -174,7 +176,8 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcs
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         if (choice == CUT_ANY || (choice == CUT_EDGES && !e->contact) ||
-            (choice == CUT_SURFACE && lrcsi_cells_segment_marked(topology, e, &surface->member))) {
+            (choice == CUT_FOREGROUND &&
+             lrcsi_cells_segment_marked(topology, e, &surface->foreground))) {
             double range[2];
             double extent = 0;
             for (int k = 0; k < 2; k++) {
@@ -226,11 +229,11 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     int covers =
         found && lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_LISTED, surface);
     if (found && !covers) {
-        cut = choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
     if (found && !covers && !cut) {
         covers = lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_IN_CELL, surface);
-        cut = covers ? NULL : choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = covers ? NULL : choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
     /* 3. Remove what is behind the component, if it covers the cell, or else behind a single facet
@@ -245,7 +248,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
         lrcsi_cells_cull(b, cell, &s, surface, thin, sample);
     }
     if (covers) {
-        cut = choose_cut(d, cell, &s, CUT_SURFACE, surface);
+        cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
     /* 4. Decide the cell if no event edge is left in it, or cut it. */
@@ -352,15 +355,15 @@ static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double pro
 }
 
 /* Finishes the moment of a facet whose area is reported. What was added differs from the visible
-   region by at most `err`, an area, and the rounding error of an area, times the distance from the
-   centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly visible,
+   region by at most `err`, an area, and the rounding error of an area, times the distance `reach`
+   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly visible,
    only what may be hidden, or visible, moves the moment from 0; its points are no farther from the
    centroid than the largest difference of coordinates. */
-static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, uint32_t facet, int partly,
-                          double err)
+static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double reach,
+                          uint32_t facet, int partly, double err)
 {
     if (partly) {
-        moment->error += moment->reach * err;
+        moment->error += reach * err;
     } else {
         double low[3];
         double high[3];
@@ -394,7 +397,8 @@ static uint32_t areas_report(cells_job *job, int as_single, unsigned char *found
                                               lrcsi_min(whole, area + err), 0, 0};
             found[f] = 1;
             if (job->moment) {
-                moment_report(d->view, &job->moment[f], f, some_visible && some_hidden, err);
+                moment_report(d->view, &job->moment[f], job->reach[f], f,
+                              some_visible && some_hidden, err);
             }
         } else {
             left++;
@@ -410,6 +414,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
     size_t need = lrcsi_work_blocks(2, facets, 1);
+    need = lrcsi_work_add(need, prepared->proximity.reach ? lrcsi_work_bytes(facets, sizeof(double))
+                                                          : 0); /* moments are wanted only there */
     need = lrcsi_work_add(need, lrcsi_block_grid_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cell_area)));
@@ -435,13 +441,14 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     lrcsi_cells_surface *surface = &job->surface;
     const lrcs_prepared *p = d->view->prepared;
     uint32_t count = p->scene->facet_count;
+    job->reach = job->moment ? lrcsi_work_take_zero(work, count, sizeof *job->reach) : NULL;
     b->finding = lrcsi_work_take_zero(work, count, 1);
     b->kind = lrcsi_work_take_zero(work, count, 1);
     d->facet = lrcsi_work_take(work, count, sizeof *d->facet);
     d->area = lrcsi_work_take_zero(work, count, sizeof *d->area);
     sample->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     sample->covers = lrcsi_work_take_zero(work, count, sizeof *sample->covers);
-    surface->member.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    surface->foreground.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     surface->adjoining.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
     b->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *b->frame.point);
     surface->facet = lrcsi_work_take(work, count, sizeof *surface->facet);
@@ -450,9 +457,10 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
     surface->border = lrcsi_work_take(work, LRCSI_SURFACE_BORDERS, sizeof *surface->border);
     d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
-    if (!b->finding || !b->kind || !d->facet || !d->area || !sample->listed.entry ||
-        !sample->covers || !surface->member.entry || !surface->adjoining.entry || !b->frame.point ||
-        !surface->facet || !sample->hit || !d->facet_lists || !surface->border || !d->stack ||
+    if ((job->moment && !job->reach) || !b->finding || !b->kind || !d->facet || !d->area ||
+        !sample->listed.entry || !sample->covers || !surface->foreground.entry ||
+        !surface->adjoining.entry || !b->frame.point || !surface->facet || !sample->hit ||
+        !d->facet_lists || !surface->border || !d->stack ||
         !lrcsi_block_grid_make(classification, answer, work, &b->grid)) {
         return 0;
     }
@@ -471,8 +479,9 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
 }
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
-                       lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
-                       unsigned char *found, lrcsi_visible_area *visible, lrcsi_moment *moment)
+                       lrcs_progress *progress, lrcs_work *work, const unsigned char *answer,
+                       const unsigned char *wanted, unsigned char *found,
+                       lrcsi_visible_area *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
@@ -489,7 +498,7 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     if (cells_allocate(classification, answer, work, &job)) {
         uint32_t size = job.blocks.grid.size;
         for (uint32_t y = 0; y < size; y++) {
-            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, y, size);
+            lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, y, size);
             for (uint32_t x = 0; x < size; x++) {
                 process_block(&job, x, y);
             }

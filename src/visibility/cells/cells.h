@@ -4,6 +4,7 @@
 #ifndef LRCSI_CELLS_H
 #define LRCSI_CELLS_H
 
+#include "base/progress.h"
 #include "visibility/raster/visible.h"
 
 /* Bytes at most. */
@@ -18,7 +19,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared);
    NULL, moment[] gets the moments of the facets whose areas are found; it is all 0 at the
    beginning, and has no meaning for other facets at the end. */
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
-                       lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
-                       unsigned char *found, lrcsi_visible_area *visible, lrcsi_moment *moment);
+                       lrcs_progress *progress, lrcs_work *work, const unsigned char *answer,
+                       const unsigned char *wanted, unsigned char *found,
+                       lrcsi_visible_area *visible, lrcsi_moment *moment);
 
 #endif

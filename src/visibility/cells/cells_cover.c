@@ -175,8 +175,8 @@ void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
 
 /* --- the surface that covers the cell --------------------------------------------------------- */
 
-/* Marks the facets of the segments in the cell's list that belong to the surface. Returns 1 if any
-   of these segments is an event edge. */
+/* Marks the facets of the segments in the cell's list that belong to the foreground. Returns 1 if
+   any of these segments is an event edge. */
 static int mark_adjoining(const lrcsi_division *d, const lrcsi_cell *cell,
                           lrcsi_cells_surface *surface)
 {
@@ -184,7 +184,7 @@ static int mark_adjoining(const lrcsi_division *d, const lrcsi_cell *cell,
     int has_edge = 0;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
-        if (lrcsi_cells_segment_marked(&d->view->prepared->topology, e, &surface->member)) {
+        if (lrcsi_cells_segment_marked(&d->view->prepared->topology, e, &surface->foreground)) {
             has_edge |= e->contact == 0;
             adjoining->entry[e->owner[0]] = adjoining->number;
             if (e->owner[1] != LRCS_NONE) {
@@ -229,14 +229,14 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     const lrcsi_division *d = &b->division;
     uint32_t count = 1;
     int covers = 1;
-    lrcsi_marks_clear(&surface->member, d->view->prepared->scene->facet_count);
+    lrcsi_marks_clear(&surface->foreground, d->view->prepared->scene->facet_count);
     lrcsi_marks_clear(&surface->adjoining, d->view->prepared->scene->facet_count);
-    const uint32_t member = surface->member.number;
-    uint32_t *const mark = surface->member.entry;
+    const uint32_t number = surface->foreground.number;
+    uint32_t *const mark = surface->foreground.entry;
     surface->nearest = 1;
     surface->border_count = 0;
     surface->facet[0] = sample->nearest;
-    mark[sample->nearest] = member;
+    mark[sample->nearest] = number;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t facet = surface->facet[i];
         const lrcsi_cells_facet *f = &d->facet[facet];
@@ -245,7 +245,7 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
         for (int k = 0; k < 3; k++) {
             lrcsi_cell_border side;
             uint32_t next = f->neighbour[k];
-            if (next != LRCS_NONE && mark[next] == member) {
+            if (next != LRCS_NONE && mark[next] == number) {
                 continue;
             }
             int is_listed = next != LRCS_NONE && lrcsi_marked(&sample->listed, next);
@@ -253,7 +253,7 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
                             ? LRCSI_CLIP_CROSSES
                             : locate_side(cell, s, f, k, next != LRCS_NONE && !is_listed, &side);
             if (place == LRCSI_CLIP_CROSSES && is_listed) {
-                mark[next] = member;
+                mark[next] = number;
                 surface->facet[count++] = next;
             } else if (place == LRCSI_CLIP_CROSSES && count > SMALL_COMPONENT) {
                 surface->facet_count = count;
@@ -303,7 +303,7 @@ int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
     surface->border_count = 0;
     surface->facet[0] = occluder;
     surface->facet_count = 1;
-    surface->member.entry[occluder] = surface->member.number;
+    surface->foreground.entry[occluder] = surface->foreground.number;
     (void)mark_adjoining(d, cell, surface);
     return 1;
 }
@@ -407,7 +407,7 @@ void lrcsi_cells_cull(lrcsi_blocks *b, lrcsi_cell *cell, const lrcsi_clip_sides 
                       lrcsi_cells_sample *sample)
 {
     const lrcsi_division *d = &b->division;
-    const lrcsi_marks member = surface->member;
+    const lrcsi_marks foreground = surface->foreground;
     double low = HUGE_VAL; /* the lowest z of the surface in the cell */
     for (uint32_t i = 0; i < surface->facet_count; i++) {
         low = lrcsi_min(low, lrcsi_cells_facet_z_bound(&d->facet[surface->facet[i]], s, -1));
@@ -415,7 +415,7 @@ void lrcsi_cells_cull(lrcsi_blocks *b, lrcsi_cell *cell, const lrcsi_clip_sides 
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t f = cell->facet[i];
-        if (!lrcsi_marked(&member, f) &&
+        if (!lrcsi_marked(&foreground, f) &&
             ((covers_sample(sample, f) && !lrcsi_marked(&surface->adjoining, f) &&
               behind_at_sample(d, s, sample, surface, f)) ||
              d->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&d->facet[f], s, 1) < low)) {

@@ -53,9 +53,11 @@ typedef struct lrcsi_cells_surface {
     int nearest;               /* 1: no other facet is nearer at the sample */
     lrcsi_cell_border *border; /* its edges at the border of the cell */
     uint32_t border_count;
-    lrcsi_marks member;    /* its facets, and others that are to be kept */
-    lrcsi_marks adjoining; /* the facets of the segments in the cell that belong to it: those that
-                              it meets at a contact */
+    /* The foreground: the facets of the component around the facet nearest at the sample and, if
+       the surface is another facet alone, that facet too. lrcsi_cells_cull removes none of them. */
+    lrcsi_marks foreground;
+    lrcsi_marks adjoining; /* the facets of the segments in the cell that belong to the foreground:
+                              those that it meets at a contact */
 } lrcsi_cells_surface;
 
 /* Which facets belong to the surface component around the facet nearest at a sample. */
@@ -73,7 +75,7 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
 
 /* Given: a component that does not cover the cell. Of the facets that each cover the cell alone,
    takes the one nearest at the sample as the surface. Returns 0 if there is none. The facets of the
-   component stay marked as members: lrcsi_cells_cull keeps them, even those behind that facet. */
+   component stay in the foreground, even those behind that facet. */
 int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
                                  const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                                  lrcsi_cells_surface *surface);

@@ -100,6 +100,7 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
     cell.facet[0] = 0;
     cell.facet_count = 1;
     a->moment = (lrcsi_moment){.error = 0};
+    a->reach = 0;
     a->perhaps_hidden = a->perhaps_visible = a->piece_err = 0;
     a->hidden = 0;
     a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
@@ -133,7 +134,7 @@ static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
     const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
                               (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
     double reach = lrcsi_clip_add_moment(&a->piece, centre, a->moment.first);
-    a->moment.reach = lrcsi_max(a->moment.reach, reach);
+    a->reach = lrcsi_max(a->reach, reach);
     area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
     area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                                (s->high[0] - s->low[0]) *
@@ -209,7 +210,7 @@ static void moment_close(lrcsi_facet_cells *a, double err)
     const lrcsi_target *t = &a->target;
     double undecided = a->perhaps_hidden + a->perhaps_visible;
     double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
-    double reach = lrcsi_max(a->moment.reach, t->diameter);
+    double reach = lrcsi_max(a->reach, t->diameter);
     if (a->frame.needle) {
         a->moment.error = HUGE_VAL;
     } else if (a->hidden || undecided > 0) {

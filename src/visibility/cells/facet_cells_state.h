@@ -54,6 +54,7 @@ typedef struct lrcsi_facet_cells {
     /* Found of f: */
     lrcsi_clip_polygon piece; /* the piece last found */
     lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
+    double reach;             /* the largest distance of the pieces from the centroid of f */
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
     double perhaps_hidden;    /* undecided area that is more likely to be hidden */

@@ -292,13 +292,13 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
     return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
 }
 
-int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible_area *visible, int *undecided)
+int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
+                       lrcs_work *work, lrcsi_visible_area *visible, int *undecided)
 {
     const uint32_t facets = view->prepared->scene->facet_count;
     const size_t mark = work->used;
     preview_job job = {.view = view};
-    int status = lrcsi_raster_make(view, size, work, &job.raster);
+    int status = lrcsi_raster_make(view, size, progress, work, &job.raster);
     if (status == LRCS_OK) {
         job.counts = lrcsi_work_take_zero(work, facets, sizeof *job.counts);
         job.column = lrcsi_work_take_zero(work, size, sizeof *job.column);

@@ -14,7 +14,7 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
 /* Finds visible[facet_count] from size x size samples. *undecided: 1 if the depth order of some
    facets could not be decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work
    area. */
-int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible_area *visible, int *undecided);
+int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
+                       lrcs_work *work, lrcsi_visible_area *visible, int *undecided);
 
 #endif

@@ -8,6 +8,7 @@
 #ifndef LRCSI_RASTER_H
 #define LRCSI_RASTER_H
 
+#include "base/progress.h"
 #include "view/view.h"
 #include "visibility/raster/span.h"
 
@@ -44,7 +45,8 @@ typedef struct lrcsi_plane {
    facets own are not counted.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area, at most `need` bytes. */
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
-int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster);
+int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
+                      lrcs_work *work, lrcsi_raster *raster);
 
 /* Draws only the tiles around undecided facets: all pixels that these may touch, and two pixels
    around them. Given: answer[facet], a lrcsi_query_answer. Facets known to be visible own all
@@ -53,7 +55,7 @@ int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lr
    Status: as above. */
 size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size);
 int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                                lrcs_work *work, lrcsi_raster *raster);
+                                lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster);
 
 /* Sets size, pixel, pixels_per_unit, sample_err and radius only: a raster without samples. */
 void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);

@@ -435,7 +435,7 @@ static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, u
 /* Makes a raster of all facets that can hide others, or, if answer is not NULL, of those that are
    known to be visible and of undecided ones, in the tiles around the latter. */
 static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                       lrcs_work *work, lrcsi_raster *raster)
+                       lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster)
 {
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
@@ -469,7 +469,7 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {
         others = 0;
         for (uint32_t f = 0; (f = next_drawn(&r, answer, f)) < count; f++) {
-            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
+            lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, f, count);
             others += !draw_facet(&r, f, ordinary);
         }
     }
@@ -477,15 +477,16 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
     return LRCS_OK;
 }
 
-int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster)
+int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
+                      lrcs_work *work, lrcsi_raster *raster)
 {
-    return raster_make(view, size, NULL, work, raster);
+    return raster_make(view, size, NULL, progress, work, raster);
 }
 
 int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                                lrcs_work *work, lrcsi_raster *raster)
+                                lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster)
 {
-    int status = raster_make(view, size, answer, work, raster);
+    int status = raster_make(view, size, answer, progress, work, raster);
     for (uint32_t y = 0; y < size && status == LRCS_OK; y++) { /* counts samples by their owners */
         const unsigned char *tiles = tile_row(raster, y);
         const uint32_t *owner = raster->owner + (size_t)y * size;

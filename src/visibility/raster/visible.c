@@ -361,15 +361,15 @@ size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
-int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
-                                     lrcsi_raster *raster, lrcsi_visible_area *visible,
-                                     int *undecided)
+int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size,
+                                     lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster,
+                                     lrcsi_visible_area *visible, int *undecided)
 {
     const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
-    int status = lrcsi_raster_make_undecided(view, size, decisions->answer, work, raster);
+    int status = lrcsi_raster_make_undecided(view, size, decisions->answer, progress, work, raster);
     const size_t end = work->used;
     visible_job job = {.raster = raster};
     lrcsi_crossings search = decisions->search;

@@ -21,8 +21,8 @@ size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size);
    tiles around undecided facets are drawn. *undecided: 1 if the depth order of some facets could
    not be decided, or the query of a uniform facet had no answer; else 0.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
-int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
-                                     lrcsi_raster *raster, lrcsi_visible_area *visible,
-                                     int *undecided);
+int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size,
+                                     lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster,
+                                     lrcsi_visible_area *visible, int *undecided);
 
 #endif

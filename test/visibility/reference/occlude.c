@@ -483,8 +483,8 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
     if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         can_process_together(view->prepared)) {
-        lrcsi_cells_areas(classification, NULL, work, o.uniform, classification->undecided, found,
-                          visible, NULL);
+        lrcsi_cells_areas(classification, NULL, NULL, work, o.uniform, classification->undecided,
+                          found, visible, NULL);
     }
     /* 2. Each facet that is still undecided, one at a time. */
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
