@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-#include "caster.h"
 #include "check.h"
+#include "ray_caster.h"
 #include "recipe.h"
 
 #define PI 3.14159265358979323846
