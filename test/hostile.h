@@ -152,7 +152,8 @@ static inline void attack_by_inflation(const hostile_reader *reader, const void 
 
 /* The work area grows byte by byte until the read succeeds, at the latest at what is needed;
    until then nothing is taken and nothing is touched. */
-static inline void attack_by_starving(const hostile_reader *reader, const void *bytes, size_t size)
+static inline void attack_by_too_little_memory(const hostile_reader *reader, const void *bytes,
+                                               size_t size)
 {
     lrcs_mesh_counts counts;
     lrcs_where where;

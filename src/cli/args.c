@@ -193,17 +193,19 @@ int cli_positive(const cli_args *args, const char *name, const char *what, doubl
 
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)
 {
-    double number = *value;
-    int code = cli_number(args, name, &number);
-    if (code == 0 && cli_value(args, name)) {
-        if (!(number >= least && number <= most) || number != floor(number)) {
-            char what[80];
-            snprintf(what, sizeof what, "a whole number %.0f .. %.0f", least, most);
-            return cli_expected(args, name, what);
-        }
-        *value = (uint32_t)number;
+    const char *text = cli_value(args, name);
+    double number = 0.0;
+    if (!text) {
+        return 0;
     }
-    return code;
+    if (lrcs_host_number_read(text, strlen(text), &number) != LRCS_OK ||
+        !(number >= least && number <= most) || number != floor(number)) {
+        char what[80];
+        snprintf(what, sizeof what, "a whole number %.0f .. %.0f", least, most);
+        return cli_expected(args, name, what);
+    }
+    *value = (uint32_t)number;
+    return 0;
 }
 
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place)

@@ -4,8 +4,8 @@
 #include <lrcs/emulate.h>
 
 #include "curved.h"
+#include "memory_limit.h"
 #include "scenes.h"
-#include "starve.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -490,15 +490,15 @@ static void pose_that_is_none_is_refused(void **state)
     }
 }
 
-static const lrcs_prepared *starved_scene;
-static lrcs_emulation starved_emulation;
-static const lrcs_emulation_options starved_options = {16, LRCS_PRECISION_FLOAT32, 24};
+static const lrcs_prepared *limited_scene;
+static lrcs_emulation limited_emulation;
+static const lrcs_emulation_options limited_options = {16, LRCS_PRECISION_FLOAT32, 24};
 
 static int call_emulation(lrcs_work *area)
 {
     lrcs_pose pose;
     assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
-    return lrcs_emulate_run(starved_scene, &pose, &starved_options, area, &starved_emulation, NULL,
+    return lrcs_emulate_run(limited_scene, &pose, &limited_options, area, &limited_emulation, NULL,
                             NULL);
 }
 
@@ -508,9 +508,9 @@ static void it_grows_until_it_fits(void **state)
     scene_start(&scene);
     scene_material(&scene, 1, 0.25, 0.2, 0.5);
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
-    starved_scene = scene_prepare(&scene, &work);
-    starve(STARVED("emulation", lrcs_emulate_need(starved_scene, &starved_options), call_emulation,
-                   starved_emulation, 0));
+    limited_scene = scene_prepare(&scene, &work);
+    check_memory_limit(MEMORY_CASE("emulation", lrcs_emulate_need(limited_scene, &limited_options),
+                                   call_emulation, limited_emulation, 0));
 }
 
 int main(void)

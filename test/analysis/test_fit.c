@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "check.h"
+#include "memory_limit.h"
 #include "random.h"
-#include "starve.h"
 
 #include "../vectors/fit.inc"
 
@@ -559,23 +559,23 @@ static void grazing_readings_alone_give_back_a_matt_surface(void **state)
     assert_true(fit.parameter[LRCS_FIT_A].low == 0 && isfinite(fit.brdf.A + fit.brdf.B));
 }
 
-static lrcs_fit_reading starved_reading[9];
-static lrcs_fit starved_fit;
+static lrcs_fit_reading limited_reading[9];
+static lrcs_fit limited_fit;
 
 static int call_fit(lrcs_work *work)
 {
     lrcs_fit_options options = lrcs_fit_options_default();
-    return lrcs_fit_run(starved_reading, 9, &options, work, &starved_fit, NULL);
+    return lrcs_fit_run(limited_reading, 9, &options, work, &limited_fit, NULL);
 }
 
 static void a_fit_grows_until_it_fits(void **state)
 {
     (void)state;
     for (int i = 0; i < 9; i++) {
-        starved_reading[i].angle_deg = 8.0 * i;
-        starved_reading[i].value = 0.3 + exp(-0.02 * i * i);
+        limited_reading[i].angle_deg = 8.0 * i;
+        limited_reading[i].value = 0.3 + exp(-0.02 * i * i);
     }
-    starve(STARVED("fit", lrcs_fit_need(9), call_fit, starved_fit, 0));
+    check_memory_limit(MEMORY_CASE("fit", lrcs_fit_need(9), call_fit, limited_fit, 0));
 }
 
 /* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "check.h"
+#include "memory_limit.h"
 #include "random.h"
-#include "starve.h"
 
 #define FOLDER        "../shared/models/"
 #define VERTICES_MOST 4096
@@ -589,7 +589,7 @@ static void a_scene_without_facets_has_no_regions(void **state)
     mesh_end();
 }
 
-static int starved_find(lrcs_work *work)
+static int limited_find(lrcs_work *work)
 {
     lrcs_quadric_region *list;
     uint32_t count;
@@ -606,7 +606,8 @@ static void too_little_memory_is_refused(void **state)
     (void)state;
     mesh_begin();
     grid_add(2, 12, 1, on_cylinder);
-    starve(STARVED("quadric_find", lrcs_quadric_need(&mesh.scene), starved_find, mesh.count, 1));
+    check_memory_limit(
+        MEMORY_CASE("quadric_find", lrcs_quadric_need(&mesh.scene), limited_find, mesh.count, 1));
 }
 
 /* ---- models ---- */

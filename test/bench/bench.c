@@ -146,8 +146,8 @@ static int pose_run(const bench_case *c, int direction, lrcs_work *work, lrcs_re
     lrcs_pose pose = case_pose(c, direction);
     for (;;) {
         int status = lrcs_sigma_run(prepared, &pose, &c->options, work, result, NULL, NULL);
-        int starved = status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK);
-        if (status != LRCS_E_MEMORY && !starved) {
+        int degraded = status == LRCS_OK && (result->flags & LRCS_FLAG_MEMORY_FALLBACK);
+        if (status != LRCS_E_MEMORY && !degraded) {
             return status;
         }
         size_t size = 2 * work->size;

@@ -47,7 +47,7 @@ failure pipe_is_no_part "pipe.obj: expected a regular file" run "$scratch/s.toml
 
 # Bytes of address space from too few for anything to enough: done, degraded or refused with a
 # message, never a crash. Sanitizers need all of it.
-starve() {
+limit_memory() {
     name=$1
     shift
     worst=
@@ -68,10 +68,10 @@ starve() {
     same "some_memory_is_too_little_for_$name" "$((refused > 0))" 1
 }
 if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
-    starve run run demo
-    starve a_raster run demo --method zbuffer --resolution 2048
-    starve a_picture image demo -o "$scratch/demo.png"
-    starve sweep sweep demo --az 0:20:10 --el 0
+    limit_memory run run demo
+    limit_memory a_raster run demo --method zbuffer --resolution 2048
+    limit_memory a_picture image demo -o "$scratch/demo.png"
+    limit_memory sweep sweep demo --az 0:20:10 --el 0
     # Where memory refuses threads there are fewer, and the rows are those of one alone.
     what='demo --az 0:8:2 --el 20 --method zbuffer --resolution 4096'
     # shellcheck disable=SC2086

@@ -83,9 +83,9 @@ int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
     options.unit = units[how & 7];
     options.cosine = how >> 3 & 1;
     options.noise = (int)(how >> 4 & 3);
-    size_t starved = how >> 6 == 3;
+    size_t short_memory = how >> 6 == 3;
     uint32_t count = take_readings(&in, reading);
-    lrcs_work work = fuzz_area(lrcs_fit_need(count) - starved);
+    lrcs_work work = fuzz_area(lrcs_fit_need(count) - short_memory);
     memset(&fit, FUZZ_PATTERN, sizeof fit);
     memset(point, FUZZ_PATTERN, sizeof point);
     int status = lrcs_fit_run(reading, count, &options, &work, &fit, point);
@@ -94,7 +94,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
         require_points(point, &fit, count);
         require(work.peak <= work.size);
     } else {
-        require(status != LRCS_E_MEMORY || starved);
+        require(status != LRCS_E_MEMORY || short_memory);
         require(fuzz_untouched(&fit, sizeof fit) && fuzz_untouched(point, sizeof point));
     }
     require(work.used == 0);

@@ -57,7 +57,7 @@ static inline void require_report(const lrcs_mesh *mesh)
 }
 
 /* Room for a part of what is needed, a different one for every size of input. */
-static inline void require_starved(const fuzz_reader *reader, const void *bytes, size_t size,
+static inline void require_refusal(const fuzz_reader *reader, const void *bytes, size_t size,
                                    size_t need)
 {
     lrcs_work work = fuzz_area((size * 2654435761u) % (need + 1));
@@ -91,7 +91,7 @@ static inline int fuzz_mesh(const fuzz_reader *reader, const void *bytes, size_t
     require_mesh(&mesh);
     require_report(&mesh);
     free(work.bytes);
-    require_starved(reader, bytes, size, need);
+    require_refusal(reader, bytes, size, need);
     return 0;
 }
 

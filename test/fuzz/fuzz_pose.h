@@ -70,18 +70,18 @@ static inline double take_scale(fuzz_input *in)
     return scale[fuzz_byte(in) & 7];
 }
 
-/* Two methods, that of the options and another, now and then all; and one thing more: to starve, to
-   turn, polygons, or few steps. */
+/* Two methods, that of the options and another, now and then all; and one thing more: too little
+   memory, to turn, polygons, or few steps. */
 static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run, int *turned)
 {
     unsigned other = ((unsigned)run->options.method + 1 + share % 3) & 3;
     run->methods = share == 255 ? 15 : 1u << run->options.method | 1u << other;
     run->share = share;
     run->options.accept = (int)(share >> 2 & 3) % 3;
-    run->starved = effects >> 4 & 1;
-    *turned = (effects >> 6 & 1) && fuzz_chosen(!run->starved);
-    run->polygons = (effects >> 7 & 1) && !run->starved && !*turned;
-    run->hurried = !run->starved && !run->polygons && share % 4 == 0;
+    run->short_memory = effects >> 4 & 1;
+    *turned = (effects >> 6 & 1) && fuzz_chosen(!run->short_memory);
+    run->polygons = (effects >> 7 & 1) && !run->short_memory && !*turned;
+    run->hurried = !run->short_memory && !run->polygons && share % 4 == 0;
 }
 
 static inline void take_run(fuzz_input *in, fuzz_run *run, int *turned)

@@ -56,7 +56,7 @@ static int is_rare(unsigned hash)
     return (hash >> 12 & 15) == 0;
 }
 
-/* Methods, starving, polygons and what else is open, from a hash of the file. */
+/* Methods, too little memory, polygons and what else is open, from a hash of the file. */
 static fuzz_run run_of(unsigned hash)
 {
     fuzz_run run = {.options = lrcs_run_options_default(), .share = 64};
@@ -65,7 +65,7 @@ static fuzz_run run_of(unsigned hash)
     run.options.resolution = 16;
     run.options.accept = (int)(hash >> 9 & 3) % 3;
     run.methods = 1u << run.options.method | 1u << (hash >> 2 & 3);
-    run.starved = (hash >> 4 & 3) == 0;
+    run.short_memory = (hash >> 4 & 3) == 0;
     run.polygons = (hash >> 4 & 3) == 1;
     require(lrcs_pose_from_azel(30, 40, &run.pose) == LRCS_OK);
     return run;

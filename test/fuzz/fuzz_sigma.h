@@ -48,7 +48,7 @@ typedef struct fuzz_run {
     lrcs_run_options options;
     unsigned methods; /* which ones, bits 1u << LRCS_METHOD_... */
     int polygons;     /* wanted too */
-    int starved;      /* once more by the method of the options, in too little memory, */
+    int short_memory; /* once more by the method of the options, in too little memory, */
     int hurried;      /* or with few steps, the square of `share` */
     unsigned share;   /* of the memory that is needed, in 256ths, for that */
 } fuzz_run;
@@ -250,7 +250,7 @@ static inline void fuzz_method(const lrcs_prepared *prepared, const lrcs_scene *
     if (method == LRCS_METHOD_EXACT && options.without == 0 && fuzz_chosen(run->polygons)) {
         fuzz_polygons(prepared, scene, run);
     }
-    if (method == run->options.method && fuzz_chosen(run->starved) &&
+    if (method == run->options.method && fuzz_chosen(run->short_memory) &&
         fuzz_sigma(prepared, scene, run, &options, need * run->share / 256, &result) == LRCS_OK) {
         learn(truth, scene, &result);
     }

@@ -4,13 +4,13 @@
 
 #include <stdlib.h>
 
-#include "written.h"
+#include "file_text.h"
 
 static void check_text(const char *text, const char *want)
 {
     FILE *file = tmpfile();
     lrcs_host_html_text(file, text);
-    char *got = written(file);
+    char *got = file_text(file);
     assert_string_equal(got, want);
     free(got);
 }
@@ -50,7 +50,7 @@ static void base64_is_that_of_the_rfc(void **state)
     for (size_t size = 0; size < sizeof want / sizeof want[0]; size++) {
         FILE *file = tmpfile();
         lrcs_host_html_base64(file, (const unsigned char *)"foobar", size);
-        char *got = written(file);
+        char *got = file_text(file);
         assert_string_equal(got, want[size]);
         free(got);
     }

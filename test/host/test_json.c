@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "written.h"
+#include "file_text.h"
 
 static void check_quoted(const char *text, const char *want)
 {
     FILE *file = tmpfile();
     lrcs_host_json json = lrcs_host_json_make(file);
     lrcs_host_json_text(&json, NULL, text);
-    char *got = written(file);
+    char *got = file_text(file);
     assert_string_equal(got, want);
     free(got);
 }
@@ -53,7 +53,7 @@ static void a_sketch_writes_several_items(void **state)
     lrcs_host_json_put(&json, "} missing=%s lost=%g", none, (double)NAN);
     lrcs_host_json_numbers(&json, "three", three, 3);
     lrcs_host_json_put(&json, "}");
-    char *got = written(file);
+    char *got = file_text(file);
     assert_string_equal(got, "{\n  \"name\": \"a \\\"b\\\"\",\n  \"n\": 3,\n"
                              "  \"large\": 1099511627776,\n  \"x\": 0.25,\n  \"on\": true,\n"
                              "  \"none\": null,\n  \"row\": {\"a\": false, \"b\": [1, 2]},\n"
@@ -79,7 +79,7 @@ static void containers_nest_with_commas_where_they_belong(void **state)
     lrcs_host_json_end(&json);
     lrcs_host_json_end(&json);
     lrcs_host_json_end(&json);
-    char *got = written(file);
+    char *got = file_text(file);
     assert_string_equal(got, "{\n  \"n\": 18446744073709551615,\n  \"empty\": [],\n"
                              "  \"row\": [true, false, {\"x\": 0.5}]\n}\n");
     free(got);
@@ -112,7 +112,7 @@ static void what_is_not_finite_is_null(void **state)
     lrcs_host_json_number(&json, NULL, (double)INFINITY);
     lrcs_host_json_number(&json, NULL, -(double)INFINITY);
     lrcs_host_json_end(&json);
-    char *got = written(file);
+    char *got = file_text(file);
     assert_string_equal(got, "[null, null, null]\n");
     free(got);
 }

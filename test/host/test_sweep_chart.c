@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "written.h"
+#include "file_text.h"
 
 static lrcs_host_error error;
 static lrcs_host_plan plan;
@@ -86,7 +86,7 @@ static void the_drawing_says_what_it_shows(void **state)
     assert_true(part[0] == 0.375 && part[1] == 0.5);
     FILE *file = tmpfile();
     assert_int_equal(lrcs_host_sweep_chart_write(file, &chart, 1, 0, &error), LRCS_OK);
-    char *got = written(file);
+    char *got = file_text(file);
     assert_non_null(strstr(got, "Laser radar cross-section of body"));
     assert_non_null(strstr(got,
                            "each sigma is proved to within 0.01 m2 or better; shaded: 68 % by the "
@@ -96,7 +96,7 @@ static void the_drawing_says_what_it_shows(void **state)
     free(got);
     file = tmpfile();
     assert_int_equal(lrcs_host_sweep_chart_write(file, &chart, 1, 1, &error), LRCS_OK);
-    got = written(file);
+    got = file_text(file);
     assert_memory_equal(got, "\x89PNG", 4);
     free(got);
     lrcs_host_plan_free(&plan);

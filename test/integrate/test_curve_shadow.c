@@ -2,8 +2,8 @@
 /* A smooth model in the shadow of an engine-made sphere. The truth is that of the true sphere, from
    an integral over the model's sides which knows nothing of facets, clipping or cubature; the
    sphere's mesh is coarse, and what its shadow may miss is the bound's to know. */
-#include "caster.h"
 #include "curved.h"
+#include "ray_caster.h"
 
 #define SIDES  24
 #define RADIUS 0.5

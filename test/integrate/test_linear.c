@@ -296,10 +296,78 @@ static void f_is_within_the_bounds_of_the_linear_function(void **state)
     assert_int_equal(beyond, 0);
 }
 
+/* The first facet of the first part that has a patch which is neither seen from the front nor nearly
+   edge-on. */
+static lrcsi_patch tilted_patch(const linear_scene *s, const lrcs_brdf *brdf)
+{
+    for (uint32_t f = 0; f < s->scene.part[0].facet_count; f++) {
+        lrcsi_patches evaluated = {.negligible = 0};
+        double c = lrcsi_view_incidence(&s->view, f).cos_theta;
+        const lrcsi_patch *patch =
+            c > 0.3 && c < 0.8 ? lrcsi_patch_make(&s->view, &s->plan, brdf, f, &evaluated) : NULL;
+        if (patch) {
+            return *patch;
+        }
+    }
+    fail_msg("no patch");
+    return (lrcsi_patch){.side = 0};
+}
+
+/* Rounding errors exceed the terms themselves if the glint is too narrow, the exponent too large,
+   or the patch too nearly edge-on; and what faces away or has no bounds has no approximation. */
+static void what_rounding_leaves_open_has_no_linear_function(void **state)
+{
+    (void)state;
+    static linear_scene s;
+    const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
+    const lrcs_brdf brdf = {1, 1, 0.3, 1};
+    const lrcs_brdf narrow = {1, 1, 1e-9, 1};
+    const lrcs_brdf steep = {0, 1, 1, 1e17};
+    lrcsi_linear linear;
+    s.place = lrcs_place_default();
+    scene_make(&ball, 1e-2, &brdf, (const double[3]){0.3, 0.5, 0.7}, &s);
+    lrcsi_patch patch = tilted_patch(&s, &brdf);
+    lrcs_patch_bounds bounds = s.scene.part[0].bounds.patch;
+    assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, &bounds, 1, &linear), 1);
+    assert_int_equal(lrcsi_linear_make(&s.view, &narrow, &patch, &bounds, 1, &linear), 0);
+    assert_int_equal(lrcsi_linear_make(&s.view, &steep, &patch, &bounds, 1, &linear), 0);
+    bounds.area_err = 0.5;
+    assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, &bounds, 1, &linear), 0);
+    bounds = s.scene.part[0].bounds.patch;
+    patch.side = -patch.side;
+    assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, &bounds, 1, &linear), 0);
+}
+
+/* The walls of a cylinder whose normals are perpendicular to the direction to within rounding. */
+static void a_patch_seen_edge_on_has_no_linear_function(void **state)
+{
+    (void)state;
+    static linear_scene s;
+    const lrcs_shape tube = {
+        .kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1, .parts = LRCS_SHAPE_WALL};
+    const lrcs_brdf matt = {0, 1, 1, 0};
+    s.place = lrcs_place_default();
+    scene_make(&tube, 1e-2, &matt, (const double[3]){1, 0, 0}, &s);
+    const uint32_t around = s.scene.part[0].divisions.around;
+    for (uint32_t sector = 0; sector < around; sector += 1 + around / 12) {
+        double phi = (2.0 * sector + 1) * acos(-1.0) / around;
+        lrcsi_linear linear;
+        lrcsi_patch patch = {.at = {.sector = sector, .facets = 2}};
+        scene_make(&tube, 1e-2, &matt, (const double[3]){-sin(phi), cos(phi), 0}, &s);
+        for (patch.side = -1; patch.side < 2; patch.side += 2) {
+            assert_int_equal(lrcsi_linear_make(&s.view, &matt, &patch,
+                                               &s.scene.part[0].bounds.patch, 1, &linear),
+                             0);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(f_is_within_the_bounds_of_the_linear_function),
+        cmocka_unit_test(what_rounding_leaves_open_has_no_linear_function),
+        cmocka_unit_test(a_patch_seen_edge_on_has_no_linear_function),
     };
     if (argc > 2) {
         seed = strtoull(argv[2], NULL, 10);

@@ -288,12 +288,42 @@ static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
     assert_int_equal(without, 0);
 }
 
+/* The last patch is kept, but not its mean for another material. */
+static void each_material_has_its_own_mean_over_a_patch(void **state)
+{
+    (void)state;
+    static patch_scene s;
+    static const lrcs_brdf brdf[] = {{1, 0.25, 0.3, 1},  {0.5, 0.25, 0.3, 1}, {0.5, 0.5, 0.3, 1},
+                                     {0.5, 0.5, 0.4, 1}, {0.5, 0.5, 0.4, 2},  {1, 0.25, 0.3, 1}};
+    const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
+    const lrcs_place place = lrcs_place_default();
+    scene_make(&ball, &place, &brdf[0], 0, (const double[3]){0.3, 0.5, 0.7}, &s);
+    uint32_t facet = 0;
+    while (!(lrcsi_view_incidence(&s.view, facet).cos_theta > 0.5)) {
+        facet++;
+    }
+    lrcsi_patches kept = {.negligible = 0};
+    double before = 0;
+    for (size_t i = 0; i < sizeof brdf / sizeof *brdf; i++) {
+        lrcsi_patches fresh = {.negligible = 0};
+        const lrcsi_patch *want = lrcsi_patch_make(&s.view, &s.plan, &brdf[i], facet, &fresh);
+        const lrcsi_patch *got = lrcsi_patch_make(&s.view, &s.plan, &brdf[i], facet, &kept);
+        assert_non_null(want);
+        assert_non_null(got);
+        check_same(got->glint, want->glint);
+        check_same(got->diffuse, want->diffuse);
+        assert_true(got->glint + got->diffuse != before);
+        before = got->glint + got->diffuse;
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(means_are_those_of_the_true_surface),
         cmocka_unit_test(patches_of_a_cone_add_up_to_its_closed_form),
         cmocka_unit_test(no_mean_is_given_at_the_limb_or_of_flat_parts),
+        cmocka_unit_test(each_material_has_its_own_mean_over_a_patch),
     };
     if (argc > 2) {
         seed = strtoull(argv[2], NULL, 10);

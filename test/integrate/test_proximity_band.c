@@ -8,9 +8,9 @@
 
 #include <stdlib.h>
 
-#include "caster.h"
 #include "check.h"
-#include "nasty.h"
+#include "ray_caster.h"
+#include "shape_scenes.h"
 
 /* --- one build of it -------------------------------------------------------------------------- */
 
@@ -42,7 +42,7 @@ static void build_recipe(const lrcs_recipe *recipe, const lrcs_mesh *models, dou
     assert_int_equal(status, LRCS_OK);
 }
 
-static void build(const nasty_scene *s, double tolerance, uint32_t facets, built *b)
+static void build(const shape_scene *s, double tolerance, uint32_t facets, built *b)
 {
     build_recipe(&s->recipe, NULL, tolerance, facets, b);
 }
@@ -54,7 +54,7 @@ static void unbuild(built *b)
 }
 
 /* In no more bytes than the library asks for. */
-static lrcs_result look(const built *b, const double d[3], int method)
+static lrcs_result run_from(const built *b, const double d[3], int method)
 {
     lrcs_pose pose;
     lrcs_result result;
@@ -82,7 +82,7 @@ typedef struct tally {
     double worst;
 } tally;
 
-static tally family[NASTY_FAMILIES];
+static tally family[SHAPE_SCENE_FAMILIES];
 static uint64_t failures;
 
 static void count_share(int which, double error, double bound)
@@ -111,13 +111,13 @@ static int by_size(const void *a, const void *b)
 
 static void report(void)
 {
-    for (int i = 0; i < NASTY_FAMILIES; i++) {
+    for (int i = 0; i < SHAPE_SCENE_FAMILIES; i++) {
         tally *t = &family[i];
         unsigned kept = t->count < KEPT ? t->count : KEPT;
         qsort(t->share, kept, sizeof t->share[0], by_size);
         printf("%-13s %7u scenes %7u comparisons, %u unknown, error / bound: worst %.3f, median "
                "%.2g\n",
-               nasty_name[i], t->scenes, t->count, t->unknown, t->worst,
+               shape_scene_name[i], t->scenes, t->count, t->unknown, t->worst,
                kept ? t->share[kept / 2] : 0);
     }
     printf("%llu beyond their bounds\n", (unsigned long long)failures);
@@ -125,7 +125,7 @@ static void report(void)
 
 /* --- against itself --------------------------------------------------------------------------- */
 
-static void compare(const nasty_scene *s, uint64_t began, const double d[3], const lrcs_result *a,
+static void compare(const shape_scene *s, uint64_t began, const double d[3], const lrcs_result *a,
                     const lrcs_result *b)
 {
     if (!is_known(s->family, a) || !is_known(s->family, b)) {
@@ -138,8 +138,8 @@ static void compare(const nasty_scene *s, uint64_t began, const double d[3], con
         fprintf(stderr,
                 "%s, seed %llu, from %.17g %.17g %.17g: %.17g +- %.3g (method %d), "
                 "%.17g +- %.3g\n",
-                nasty_name[s->family], (unsigned long long)began, d[0], d[1], d[2], a->sigma_m2,
-                a->bound_m2, a->method, b->sigma_m2, b->bound_m2);
+                shape_scene_name[s->family], (unsigned long long)began, d[0], d[1], d[2],
+                a->sigma_m2, a->bound_m2, a->method, b->sigma_m2, b->bound_m2);
     }
     count_share(s->family, apart, most);
 }
@@ -165,23 +165,23 @@ static double any_offset(double size, double most)
 
 static void scene_compare(int which, uint32_t directions)
 {
-    uint64_t began = nasty_seed;
-    nasty_scene plain;
-    nasty_scene s;
+    uint64_t began = shape_scene_seed;
+    shape_scene plain;
+    shape_scene s;
     built coarse;
     built fine;
-    nasty_make(&plain, which);
+    shape_scene_make(&plain, which);
     double size = any_size();
-    nasty_transform(&plain, size, any_offset(size, 1e6), &s);
+    shape_scene_transform(&plain, size, any_offset(size, 1e6), &s);
     build(&s, coarse_tolerance(), (64u << pick(4)) * finer, &coarse);
     build(&s, 1e-9, (256u << pick(2)) * finer, &fine);
     for (uint32_t i = 0; i < directions; i++) {
         double d[3];
-        nasty_direction(&plain, d);
-        lrcs_result best = look(&fine, d, LRCS_METHOD_EXACT);
-        lrcs_result exact = look(&coarse, d, LRCS_METHOD_EXACT);
-        lrcs_result other = look(&coarse, d, pick(2) ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_FACET);
-        lrcs_result patches = look(&coarse, d, LRCS_METHOD_AUTO);
+        shape_scene_direction(&plain, d);
+        lrcs_result best = run_from(&fine, d, LRCS_METHOD_EXACT);
+        lrcs_result exact = run_from(&coarse, d, LRCS_METHOD_EXACT);
+        lrcs_result other = run_from(&coarse, d, pick(2) ? LRCS_METHOD_ZBUFFER : LRCS_METHOD_FACET);
+        lrcs_result patches = run_from(&coarse, d, LRCS_METHOD_AUTO);
         compare(&s, began, d, &exact, &best);
         compare(&s, began, d, &other, &best);
         compare(&s, began, d, &patches, &best);
@@ -194,12 +194,12 @@ static void scene_compare(int which, uint32_t directions)
 static void coarse_and_fine_agree_within_their_bounds(void **state)
 {
     (void)state;
-    nasty_seed = 20;
-    for (int i = 0; i < 2 * NASTY_FAMILIES; i++) {
-        scene_compare(i % NASTY_FAMILIES, 1);
+    shape_scene_seed = 20;
+    for (int i = 0; i < 2 * SHAPE_SCENE_FAMILIES; i++) {
+        scene_compare(i % SHAPE_SCENE_FAMILIES, 1);
     }
     finer = 16; /* so that round walls are integrated over their pieces */
-    for (int i = 0; i < NASTY_FAMILIES; i++) {
+    for (int i = 0; i < SHAPE_SCENE_FAMILIES; i++) {
         scene_compare(i, 1);
     }
     finer = 1;
@@ -213,27 +213,27 @@ static void coarse_and_fine_agree_within_their_bounds(void **state)
  */
 static void scene_cast(int which, uint32_t directions, int side)
 {
-    uint64_t began = nasty_seed;
-    nasty_scene plain;
-    nasty_scene s;
+    uint64_t began = shape_scene_seed;
+    shape_scene plain;
+    shape_scene s;
     built b;
-    nasty_make(&plain, which);
-    cast_scene rays = {.seed = nasty_seed};
+    shape_scene_make(&plain, which);
+    cast_scene rays = {.seed = shape_scene_seed};
     for (uint32_t i = 0; i < plain.recipe.part_count; i++) {
         int assigned = plain.part[i].material_index;
         cast_part(&rays, &plain.part[i], &plain.material[assigned].brdf, assigned);
     }
     double size = any_size();
-    nasty_transform(&plain, size, any_offset(size, 1e3), &s);
+    shape_scene_transform(&plain, size, any_offset(size, 1e3), &s);
     build(&s, coarse_tolerance(), (64u << pick(5)) * finer, &b);
     for (uint32_t i = 0; i < directions; i++) {
         double d[3];
-        nasty_direction(&plain, d);
+        shape_scene_direction(&plain, d);
         cast_answer truth = cast_run(&rays, d, side);
         for (int k = 0; k < 3; k++) {
             d[k] = size < 0 ? -d[k] : d[k];
         }
-        lrcs_result r = look(&b, d, i % 2 ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT);
+        lrcs_result r = run_from(&b, d, i % 2 ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT);
         double sigma = r.sigma_m2 / (size * size);
         double bound = r.bound_m2 / (size * size);
         double apart = fabs(sigma - truth.sigma);
@@ -242,8 +242,8 @@ static void scene_cast(int which, uint32_t directions, int side)
             fprintf(stderr,
                     "%s, seed %llu, from %.17g %.17g %.17g: %.10g +- %.3g, by rays %.10g "
                     "+- %.3g\n",
-                    nasty_name[which], (unsigned long long)began, d[0], d[1], d[2], sigma, bound,
-                    truth.sigma, truth.error);
+                    shape_scene_name[which], (unsigned long long)began, d[0], d[1], d[2], sigma,
+                    bound, truth.sigma, truth.error);
         }
         if (r.budget.tessellation_m2 >= 0 && bound > 10 * truth.error + 1e-8 * truth.sigma) {
             count_share(which, apart, bound);
@@ -256,9 +256,9 @@ static void scene_cast(int which, uint32_t directions, int side)
 static void rays_stay_within_the_bound(void **state)
 {
     (void)state;
-    nasty_seed = 21;
-    for (int i = 0; i < 2 * NASTY_FAMILIES; i++) {
-        scene_cast(i % NASTY_FAMILIES, 2, 10);
+    shape_scene_seed = 21;
+    for (int i = 0; i < 2 * SHAPE_SCENE_FAMILIES; i++) {
+        scene_cast(i % SHAPE_SCENE_FAMILIES, 2, 10);
     }
     assert_int_equal(failures, 0);
 }
@@ -266,7 +266,7 @@ static void rays_stay_within_the_bound(void **state)
 static int many(unsigned long count, int side)
 {
     for (unsigned long i = 0; i < count; i++) {
-        int which = (int)(i % NASTY_FAMILIES);
+        int which = (int)(i % SHAPE_SCENE_FAMILIES);
         if (side > 0) {
             scene_cast(which, 2, side);
         } else {
@@ -343,9 +343,9 @@ static void what_takes_no_part_leaves_bounds_and_models_do_not_break_them(void *
         build_odd(1e-2, 4, two_sided, &bare);
         for (int i = 0; i < 8; i++) {
             int method = i % 2 ? LRCS_METHOD_EXACT : LRCS_METHOD_ZBUFFER;
-            lrcs_result a = look(&coarse, from[i / 2], method);
-            lrcs_result b = look(&fine, from[i / 2], LRCS_METHOD_EXACT);
-            lrcs_result c = look(&bare, from[i / 2], method);
+            lrcs_result a = run_from(&coarse, from[i / 2], method);
+            lrcs_result b = run_from(&fine, from[i / 2], LRCS_METHOD_EXACT);
+            lrcs_result c = run_from(&bare, from[i / 2], method);
             assert_true(a.budget.tessellation_m2 > 0 && b.budget.tessellation_m2 > 0);
             check_abs(a.sigma_m2, b.sigma_m2, a.bound_m2 + b.bound_m2);
             check_rel(a.sigma_m2, c.sigma_m2, 1e-12);
@@ -404,7 +404,7 @@ static void what_is_not_known_of_one_part_is_known_of_no_sum(void **state)
         built b;
         build_recipe(&recipe, NULL, 1e-2, 2000, &b);
         for (int method = LRCS_METHOD_FACET; method <= LRCS_METHOD_EXACT; method++) {
-            lrcs_result r = look(&b, d, method);
+            lrcs_result r = run_from(&b, d, method);
             int known = i % 3 < 2;
             assert_int_equal(r.budget.tessellation_m2 >= 0, known);
             assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, !known);
@@ -423,7 +423,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_is_not_known_of_one_part_is_known_of_no_sum),
     };
     if (argc > 2) {
-        nasty_seed = strtoull(argv[2], NULL, 10);
+        shape_scene_seed = strtoull(argv[2], NULL, 10);
         finer = argc > 4 ? (uint32_t)strtoul(argv[4], NULL, 10) : 1;
         return many(strtoul(argv[1], NULL, 10), argc > 3 ? (int)strtol(argv[3], NULL, 10) : 0);
     }

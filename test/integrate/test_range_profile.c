@@ -4,8 +4,8 @@
 #include <lrcs/profile.h>
 
 #include "curved.h"
+#include "memory_limit.h"
 #include "scenes.h"
-#include "starve.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -703,11 +703,11 @@ static void sigma_beyond_doubles_is_refused_and_loose_vertices_have_no_bins(void
     assert_true(lrcs_profile_need(prepared, 1e-300) == lrcs_profile_need(prepared, 1e-200));
 }
 
-static const lrcs_prepared *hungry;
+static const lrcs_prepared *limited;
 
-static int profile_hungry(lrcs_work *area)
+static int profile_limited(lrcs_work *area)
 {
-    return lrcs_profile_run(hungry, &pose, 0.1, area, &profile);
+    return lrcs_profile_run(limited, &pose, 0.1, area, &profile);
 }
 
 static void the_work_area_grows_until_it_suffices(void **state)
@@ -716,15 +716,17 @@ static void the_work_area_grows_until_it_suffices(void **state)
     uint64_t seed = 5;
     const double direction[3] = {1, 2, 3};
     clutter(&seed, 12);
-    hungry = scene_prepare(&scene, &work);
+    limited = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
-    starve(STARVED("lrcs_profile_run", lrcs_profile_need(hungry, 0.1), profile_hungry, profile, 1));
+    check_memory_limit(MEMORY_CASE("lrcs_profile_run", lrcs_profile_need(limited, 0.1),
+                                   profile_limited, profile, 1));
     static char text[CURVED_TEXT];
     curved_cylinder(text, 5, 0.5, 1, 'v');
     curved_case c = curved_obj(text);
     curved_build(&c, LRCS_NORMALS_SMOOTH);
-    hungry = c.prepared;
-    starve(STARVED("lrcs_profile_run", lrcs_profile_need(hungry, 0.1), profile_hungry, profile, 1));
+    limited = c.prepared;
+    check_memory_limit(MEMORY_CASE("lrcs_profile_run", lrcs_profile_need(limited, 0.1),
+                                   profile_limited, profile, 1));
     curved_free(&c);
 }
 

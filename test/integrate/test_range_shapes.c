@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "nasty.h"
-#include "starve.h"
+#include "memory_limit.h"
+#include "shape_scenes.h"
 
 #define PI 3.14159265358979323846
 
@@ -303,7 +303,7 @@ static void bins_of_walls_hold_the_integral_over_them(void **state)
 
 /* --- coarse against fine ---------------------------------------------------------------------- */
 
-static void compare(const nasty_scene *s, uint64_t seed, const lrcs_profile *a,
+static void compare(const shape_scene *s, uint64_t seed, const lrcs_profile *a,
                     const lrcs_profile *b)
 {
     int64_t first = a->first < b->first ? a->first : b->first;
@@ -314,7 +314,7 @@ static void compare(const nasty_scene *s, uint64_t seed, const lrcs_profile *a,
         lrcs_profile_bin x = bin_at(a, k);
         lrcs_profile_bin y = bin_at(b, k);
         if (!(fabs(sigma_of(&x) - sigma_of(&y)) <= x.bound_m2 + y.bound_m2 + rounding)) {
-            fprintf(stderr, "%s, seed %llu, bin %lld: ", nasty_name[s->family],
+            fprintf(stderr, "%s, seed %llu, bin %lld: ", shape_scene_name[s->family],
                     (unsigned long long)seed, (long long)k);
         }
         check_abs(sigma_of(&x), sigma_of(&y), x.bound_m2 + y.bound_m2 + rounding);
@@ -341,18 +341,18 @@ static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
     static const double sizes[] = {1, 1, 1e3, 1e-3, -1};
     static const double offsets[] = {0, 0, 1e3};
     int known = 0;
-    nasty_seed = 31;
-    for (int i = 0; i < 4 * NASTY_FAMILIES; i++) {
-        uint64_t seed = nasty_seed;
-        nasty_scene plain;
-        nasty_scene s;
+    shape_scene_seed = 31;
+    for (int i = 0; i < 4 * SHAPE_SCENE_FAMILIES; i++) {
+        uint64_t seed = shape_scene_seed;
+        shape_scene plain;
+        shape_scene s;
         lrcs_profile coarse;
         lrcs_profile fine;
         double d[3];
-        nasty_make(&plain, i % NASTY_FAMILIES);
-        nasty_direction(&plain, d);
+        shape_scene_make(&plain, i % SHAPE_SCENE_FAMILIES);
+        shape_scene_direction(&plain, d);
         double size = sizes[pick(5)];
-        nasty_transform(&plain, size, offsets[pick(3)] * fabs(size), &s);
+        shape_scene_transform(&plain, size, offsets[pick(3)] * fabs(size), &s);
         built b[2];
         build(&s.recipe, pick(2) ? 1e-9 : 0.05, 64u << pick(3), &b[0]);
         build(&s.recipe, 1e-9, 500, &b[1]);
@@ -368,7 +368,7 @@ static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
             unbuild(&b[k]);
         }
     }
-    assert_true(known > 3 * NASTY_FAMILIES);
+    assert_true(known > 3 * SHAPE_SCENE_FAMILIES);
 }
 
 /* --- what is not known, and what takes no part ------------------------------------------------ */
@@ -487,13 +487,13 @@ static void what_takes_no_part_changes_no_bin(void **state)
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-static const built *hungry;
+static const built *limited;
 static lrcs_pose pose;
 static lrcs_profile output;
 
-static int profile_hungry(lrcs_work *area)
+static int profile_limited(lrcs_work *area)
 {
-    return lrcs_profile_run(hungry->prepared, &pose, 0.2, area, &output);
+    return lrcs_profile_run(limited->prepared, &pose, 0.2, area, &output);
 }
 
 /* A ball in front of a tube: areas of every facet, and the band about the contours. */
@@ -511,10 +511,10 @@ static void the_work_area_grows_until_it_suffices(void **state)
     part[1].place.translate[1] = 0.25;
     built b;
     build(&recipe, 0.3, 64, &b);
-    hungry = &b;
+    limited = &b;
     assert_int_equal(lrcs_pose_from_direction((const double[3]){4, 0, 1}, &pose), LRCS_OK);
-    starve(
-        STARVED("lrcs_profile_run", lrcs_profile_need(b.prepared, 0.2), profile_hungry, output, 1));
+    check_memory_limit(MEMORY_CASE("lrcs_profile_run", lrcs_profile_need(b.prepared, 0.2),
+                                   profile_limited, output, 1));
     assert_true(output.tessellation_known && output.bound_m2 > 0);
     unbuild(&b);
 }

@@ -4,11 +4,9 @@
 #include <lrcs/lrcs.h>
 
 #include "check.h"
+#include "recipe.h"
 
 #define PI 3.14159265358979323846
-
-static unsigned char scene_area[1u << 25];
-static unsigned char run_area[1u << 27];
 
 static double reflect(const lrcs_brdf *b, double cosine)
 {
@@ -72,17 +70,7 @@ static lrcs_result half_hidden(lrcs_shape shape, const double turn[3][3], double
     lrcs_run_options run = lrcs_run_options_default();
     run.method = LRCS_METHOD_EXACT;
     run.tolerance = 1e-9;
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    lrcs_scene scene;
-    const lrcs_prepared *prepared;
-    lrcs_pose pose;
-    lrcs_result result;
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(run_area, sizeof run_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
-    assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
-    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL), LRCS_OK);
-    return result;
+    return recipe_run(&recipe, &build, &run, (const double[3]){0, 0, 1});
 }
 
 static const lrcs_brdf brdfs[3] = {{1, 0.25, 0.3, 0.5}, {0, 1, 1, 0}, {1, 0, 0.15, 0}};

@@ -6,13 +6,11 @@
 
 #include <stdlib.h>
 
-#include "caster.h"
 #include "check.h"
+#include "ray_caster.h"
+#include "recipe.h"
 
 #define PI 3.14159265358979323846
-
-static unsigned char scene_area[1u << 25];
-static unsigned char run_area[1u << 27];
 
 static const lrcs_brdf glossy = {1, 0.25, 0.2, 0.5};
 
@@ -57,16 +55,7 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
     run.method = method;
     run.tolerance = 1e-9; /* means over patches have a small remainder */
     run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    lrcs_scene scene;
-    const lrcs_prepared *prepared;
-    lrcs_pose pose;
-    lrcs_result result;
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(run_area, sizeof run_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
-    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL), LRCS_OK);
+    lrcs_result result = recipe_run(&recipe, &build, &run, d);
     assert_true(result.budget.tessellation_m2 >= 0);
     return result;
 }

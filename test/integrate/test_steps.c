@@ -83,7 +83,7 @@ static void check_method(int method, uint32_t fine)
 
 #define ALL_STEPS 1000000u
 
-static void look(double x, double y, double z, double tolerance)
+static void run_exact(double x, double y, double z, double tolerance)
 {
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     options = lrcs_run_options_default();
@@ -109,7 +109,7 @@ static void sheets_over_each_other(void **state)
         scene_material(&scene, 1, 0.5, 0.1, 2)->two_sided = 1;
         sheets(count);
         prepared = scene_prepare(&scene, &work);
-        look(0.25, -0.5, 1, 1e-4);
+        run_exact(0.25, -0.5, 1, 1e-4);
         check_method(LRCS_METHOD_EXACT, count < 5 ? ALL_STEPS : 10);
         check_method(LRCS_METHOD_AUTO, 10);
     }
@@ -131,7 +131,7 @@ static void triangles_through_each_other(void **state)
             scene_triangle(&scene, corner[0], corner[1], corner[2]);
         }
         prepared = scene_prepare(&scene, &work);
-        look(1, -2, 5, 1e-4);
+        run_exact(1, -2, 5, 1e-4);
         check_method(LRCS_METHOD_EXACT, seed < 24 ? ALL_STEPS : 10);
     }
 }
@@ -150,7 +150,7 @@ static void bodies_behind_each_other(void **state)
         scene_plate(&scene, (const double[3]){-0.5, -0.5, 0.5}, (const double[3]){0.75, 0, 0},
                     (const double[3]){0, 0.25, 0});
         prepared = scene_prepare(&scene, &work);
-        look(0.01, 0.02, 1, 1e-4);
+        run_exact(0.01, 0.02, 1, 1e-4);
         check_method(LRCS_METHOD_EXACT, ALL_STEPS);
     }
 }
@@ -170,7 +170,7 @@ static void a_body_before_much(void **state)
                        (const double[3]){x, y + 0.03, -3});
     }
     prepared = scene_prepare(&scene, &work);
-    look(0.01, 0.02, 1, 1e-4);
+    run_exact(0.01, 0.02, 1, 1e-4);
     for (uint32_t f = 0; f < body; f++) {
         double whole = record[f].area_m2 * fmax(0, record[f].cos_theta);
         check_abs(record[f].visible_area_m2, whole, 1e-12);
@@ -200,7 +200,7 @@ static void curved_normals(void **state)
     sheets(6);
     bend_normals(0.4);
     prepared = scene_prepare(&scene, &work);
-    look(0.25, -0.5, 1, 1e-3);
+    run_exact(0.25, -0.5, 1, 1e-3);
     options.resolution = 256;
     check_method(LRCS_METHOD_EXACT, 10);
     check_method(LRCS_METHOD_FACET, 10);
@@ -229,7 +229,7 @@ static void a_curved_peak(void **state)
                        (const double[3]){0, 1, 0});
         bend_normals(at[i / 2].sway);
         prepared = scene_prepare(&scene, &work);
-        look(0.5, 0.05, 1, at[i / 2].tolerance);
+        run_exact(0.5, 0.05, 1, at[i / 2].tolerance);
         check_method(LRCS_METHOD_EXACT, 20);
     }
 }
@@ -249,7 +249,7 @@ static void curved_shapes(void **state)
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &room, &shapes, NULL), LRCS_OK);
     work = lrcs_work_make(scene_memory, sizeof scene_memory);
     assert_int_equal(lrcs_prepare_run(&shapes, &work, &prepared), LRCS_OK);
-    look(0.3, 0.2, 1, 1e-4);
+    run_exact(0.3, 0.2, 1, 1e-4);
     assert_true(truth.budget.tessellation_m2 > 0);
     options.accept = LRCS_ACCEPT_ESTIMATE; /* their bound needs more than samples */
     options.tolerance = 0.01;
@@ -268,7 +268,7 @@ static void a_raster_looks_at_every_crossing(void **state)
     scene_start(&scene);
     sheets(12);
     prepared = scene_prepare(&scene, &work);
-    look(0.25, -0.5, 1, 1e-4);
+    run_exact(0.25, -0.5, 1, 1e-4);
     options.resolution = 64;
     check_method(LRCS_METHOD_ZBUFFER, ALL_STEPS);
 }

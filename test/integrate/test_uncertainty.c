@@ -3,8 +3,8 @@
    (uncertainty_reference.py beside this file), runs with other parameters, and the variances of
    linear functions. */
 #include "curved.h"
+#include "memory_limit.h"
 #include "scenes.h"
-#include "starve.h"
 
 #define ROWS(a) (sizeof(a) / sizeof(a)[0])
 
@@ -859,14 +859,14 @@ static void the_need_serves_and_less_leaves_outputs_alone(void **state)
     assert_memory_equal(&got, &before, sizeof got);
 }
 
-static outcome hungry;
-static const lrcs_prepared *hungry_scene;
-static const lrcs_uncertainty_options hungry_how = {64, 1};
+static outcome limited;
+static const lrcs_prepared *limited_scene;
+static const lrcs_uncertainty_options limited_how = {64, 1};
 
-static int run_hungry(lrcs_work *work)
+static int run_limited(lrcs_work *work)
 {
     static const double direction[3] = {-0.7, 0.3, 0.6};
-    return try_run(hungry_scene, direction, LRCS_METHOD_FACET, &hungry_how, work, &hungry);
+    return try_run(limited_scene, direction, LRCS_METHOD_FACET, &limited_how, work, &limited);
 }
 
 static void the_work_area_grows_until_it_suffices(void **state)
@@ -877,10 +877,10 @@ static void the_work_area_grows_until_it_suffices(void **state)
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     shadowed_scene();
     scene.material[0].error = (lrcs_brdf_error){.A = 0.5, .s = 0.1};
-    hungry_scene = scene_prepare(&scene, &work);
-    starve(STARVED("lrcs_uncertainty_run",
-                   lrcs_uncertainty_need(hungry_scene, &options, &hungry_how), run_hungry, hungry,
-                   0));
+    limited_scene = scene_prepare(&scene, &work);
+    check_memory_limit(MEMORY_CASE("lrcs_uncertainty_run",
+                                   lrcs_uncertainty_need(limited_scene, &options, &limited_how),
+                                   run_limited, limited, 0));
 }
 
 /* --- attitude --------------------------------------------------------------------------------- */

@@ -910,11 +910,11 @@ static void inflated_counts_give_a_status_or_a_sound_mesh(void **state)
     attack_by_inflation(&reader_3ds, file.bytes, file.size);
 }
 
-static void a_starved_read_takes_and_touches_nothing(void **state)
+static void a_read_in_too_little_memory_takes_and_touches_nothing(void **state)
 {
     (void)state;
     build_all();
-    attack_by_starving(&reader_3ds, file.bytes, file.size);
+    attack_by_too_little_memory(&reader_3ds, file.bytes, file.size);
 }
 
 static void chunks_nested_without_end_are_read_without_descent(void **state)
@@ -1014,7 +1014,7 @@ int main(void)
         cmocka_unit_test(cut_files_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(flipped_bits_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(inflated_counts_give_a_status_or_a_sound_mesh),
-        cmocka_unit_test(a_starved_read_takes_and_touches_nothing),
+        cmocka_unit_test(a_read_in_too_little_memory_takes_and_touches_nothing),
         cmocka_unit_test(chunks_nested_without_end_are_read_without_descent),
         cmocka_unit_test(counts_end_where_indices_do),
     };

@@ -213,7 +213,7 @@ static void an_empty_mesh_gives_zeros(void **state)
     check_same(r.box_min[2], 0.0);
 }
 
-static void starved_checks_fail_clean(void **state)
+static void checks_in_too_little_memory_fail_clean(void **state)
 {
     (void)state;
     size_t need = lrcs_mesh_check_need(8, 12);
@@ -247,7 +247,7 @@ int main(void)
         cmocka_unit_test(the_largest_coordinates_are_served),
         cmocka_unit_test(tiny_coordinates_give_finite_numbers),
         cmocka_unit_test(an_empty_mesh_gives_zeros),
-        cmocka_unit_test(starved_checks_fail_clean),
+        cmocka_unit_test(checks_in_too_little_memory_fail_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -383,7 +383,7 @@ static void a_point_of_two_fans_is_refused(void **state)
     assert_int_equal(r.nonmanifold_edges + r.misoriented_edges, 0);
 }
 
-static void a_starved_proof_says_so(void **state)
+static void a_proof_without_enough_memory_says_so(void **state)
 {
     (void)state;
     clear();
@@ -421,7 +421,7 @@ int main(void)
         cmocka_unit_test(a_plane_fan_of_more_than_half_a_turn_is_refused),
         cmocka_unit_test(a_wedge_wound_more_than_once_is_refused),
         cmocka_unit_test(a_point_of_two_fans_is_refused),
-        cmocka_unit_test(a_starved_proof_says_so),
+        cmocka_unit_test(a_proof_without_enough_memory_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

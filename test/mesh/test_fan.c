@@ -105,7 +105,7 @@ static void no_ring_that_meets_itself_is_proved(void **state)
 {
     (void)state;
     static const double whole = 6.283185307179586;
-    uint32_t told[2][2] = {{0, 0}, {0, 0}};
+    uint32_t count[2][2] = {{0, 0}, {0, 0}};
     for (uint32_t round = 0; round < 6000; round++) {
         int closed = round % 2 == 0;
         uint32_t spokes = 4 + (uint32_t)(12 * next_number());
@@ -115,10 +115,10 @@ static void no_ring_that_meets_itself_is_proved(void **state)
         prove_rings(spokes + 1, facets);
         int meets = ring_meets_itself(0, facets);
         assert_false(meets && proved[0]);
-        told[meets][proved[0]]++;
+        count[meets][proved[0]]++;
     }
-    assert_true(told[1][0] > 1000); /* those that do are many, and most of the others are proved */
-    assert_true(told[0][1] > 3 * told[0][0] && told[0][0] > 0);
+    assert_true(count[1][0] > 1000); /* those that do are many, and most of the others are proved */
+    assert_true(count[0][1] > 3 * count[0][0] && count[0][0] > 0);
 }
 
 static void no_point_among_random_facets_is_proved_wrongly(void **state)

@@ -421,7 +421,7 @@ static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)
     assert_int_equal(t.entry[1].other, 0);
 }
 
-static void starved_searches_fail_clean(void **state)
+static void searches_in_too_little_memory_fail_clean(void **state)
 {
     (void)state;
     static unsigned char skip[MOST];
@@ -471,7 +471,7 @@ int main(void)
         cmocka_unit_test(folded_neighbours_in_one_plane_touch),
         cmocka_unit_test(sides_along_other_sides_are_found),
         cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
-        cmocka_unit_test(starved_searches_fail_clean),
+        cmocka_unit_test(searches_in_too_little_memory_fail_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

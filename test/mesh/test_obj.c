@@ -499,7 +499,7 @@ static void failure_leaves_the_outputs_untouched(void **state)
     assert_int_equal(work.used, 0);
 }
 
-static void a_starved_work_area_is_refused_until_it_serves(void **state)
+static void a_work_area_is_refused_until_it_is_large_enough(void **state)
 {
     (void)state;
     lrcs_mesh_counts counts;
@@ -640,7 +640,7 @@ int main(void)
         cmocka_unit_test(words_that_resemble_nan_or_inf_are_no_numbers),
         cmocka_unit_test(smoothing_groups_that_are_no_numbers_are_refused),
         cmocka_unit_test(failure_leaves_the_outputs_untouched),
-        cmocka_unit_test(a_starved_work_area_is_refused_until_it_serves),
+        cmocka_unit_test(a_work_area_is_refused_until_it_is_large_enough),
         cmocka_unit_test(every_prefix_is_read_or_refused),
         cmocka_unit_test(flipped_bytes_are_read_or_refused),
     };

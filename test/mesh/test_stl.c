@@ -549,14 +549,14 @@ static void changed_bytes_give_a_status_or_a_sound_mesh(void **state)
     attack_by_bytes(&reader_stl, text, sizeof text - 1, 3000);
 }
 
-static void a_starved_read_takes_and_touches_nothing(void **state)
+static void a_read_in_too_little_memory_takes_and_touches_nothing(void **state)
 {
     (void)state;
     static const char text[] = "solid s\n" SQUARE;
     binary file;
     make_square(&file, "solid");
-    attack_by_starving(&reader_stl, file.bytes, file.size);
-    attack_by_starving(&reader_stl, text, sizeof text - 1);
+    attack_by_too_little_memory(&reader_stl, file.bytes, file.size);
+    attack_by_too_little_memory(&reader_stl, text, sizeof text - 1);
 }
 
 /* A text with more facets would have some 2^36 bytes: so many are said to be read. */
@@ -611,7 +611,7 @@ int main(void)
         cmocka_unit_test(text_without_facets_is_an_empty_mesh),
         cmocka_unit_test(cut_files_give_a_status_or_a_sound_mesh),
         cmocka_unit_test(changed_bytes_give_a_status_or_a_sound_mesh),
-        cmocka_unit_test(a_starved_read_takes_and_touches_nothing),
+        cmocka_unit_test(a_read_in_too_little_memory_takes_and_touches_nothing),
         cmocka_unit_test(facets_end_where_indices_of_their_corners_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -865,7 +865,7 @@ static void divisions_that_do_not_suit_are_refused(void **state)
     assert_int_equal(work.used, 0);
 }
 
-static void a_starved_work_area_is_left_as_it_was(void **state)
+static void a_work_area_that_is_too_small_is_left_as_it_was(void **state)
 {
     (void)state;
     lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 1};
@@ -941,7 +941,7 @@ int main(void)
         cmocka_unit_test(extreme_dimensions_stay_finite),
         cmocka_unit_test(a_cone_by_half_angle_is_the_cone_by_length),
         cmocka_unit_test(divisions_that_do_not_suit_are_refused),
-        cmocka_unit_test(a_starved_work_area_is_left_as_it_was),
+        cmocka_unit_test(a_work_area_that_is_too_small_is_left_as_it_was),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -354,7 +354,7 @@ static void a_tree_of_no_facets_has_none_in_any_box(void **state)
     assert_int_equal(lrcsi_tree_next(&walk), LRCS_NONE);
 }
 
-static void starved_trees_fail_clean(void **state)
+static void trees_in_too_little_memory_fail_clean(void **state)
 {
     (void)state;
     make_soup(0, 70, 0.0, 1.0);
@@ -385,7 +385,7 @@ int main(void)
         cmocka_unit_test(facets_in_one_place_are_found_there),
         cmocka_unit_test(slabs_and_cones_without_a_direction_leave_out_nothing),
         cmocka_unit_test(a_tree_of_no_facets_has_none_in_any_box),
-        cmocka_unit_test(starved_trees_fail_clean),
+        cmocka_unit_test(trees_in_too_little_memory_fail_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -198,6 +198,9 @@ static const refusal refusals[] = {
     {BOX "[part.joint]\naxis = [0, 0, 0]\nangle_deg = 1\n", LRCS_E_NUMBER, 6},
     {BOX "[part.joint]\nname = \"j\"\n", LRCS_E_NAME, 6},
     {BOX BOX, LRCS_E_NAME, 5},
+    /* the item that is wrong, half_angle_deg, has no line */
+    {WHITE "[[part]]\nname = \"c\"\nshape = \"cone\"\nradius = 1\nlength = 0\n", LRCS_E_ARGUMENT,
+     7},
     {BOX "colour = \"#123456\"\n", LRCS_E_NAME, 5},
     {BOX "Size = [1, 2, 3]\n", LRCS_E_NAME, 5},
     {BOX "file = \"x.3ds\"\n", LRCS_E_NAME, 1},

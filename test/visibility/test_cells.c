@@ -107,9 +107,9 @@ static uint32_t agree(const double direction[3])
         }
         lrcsi_visible_area clipped = clip_with_moment(o, f);
         if (!open[f]) {
-            double told = 1e-12 * lrcsi_view_projected(&view, f) + 1e-15 * extent * extent;
-            check_most(found[f].high - found[f].area, told * (1 + 1e-9));
-            check_most(found[f].area - found[f].low, told * (1 + 1e-9));
+            double most = 1e-12 * lrcsi_view_projected(&view, f) + 1e-15 * extent * extent;
+            check_most(found[f].high - found[f].area, most * (1 + 1e-9));
+            check_most(found[f].area - found[f].low, most * (1 + 1e-9));
         }
         found[f] = open[f] ? clipped : found[f];
         double rounding = 1e-16 * lrcsi_view_projected(&view, f);

@@ -57,6 +57,28 @@ static void both_parts_have_the_corners_of_the_cut(void **state)
     assert_true(left.count + right.count == SIDES + 4);
 }
 
+/* Of n corners on one side of a line that side has n, which there must be room for. */
+static void a_polygon_with_too_many_corners_is_refused_on_either_side(void **state)
+{
+    (void)state;
+    lrcsi_clip_polygon left;
+    lrcsi_clip_polygon right;
+    for (uint32_t sides = LRCSI_CLIP_MAX_SIDES - 1; sides <= LRCSI_CLIP_MAX_SIDES; sides++) {
+        lrcsi_clip_polygon round = {.count = sides};
+        for (uint32_t i = 0; i < sides; i++) {
+            round.corner[i][0] = cos(6.283185307179586 * i / sides);
+            round.corner[i][1] = sin(6.283185307179586 * i / sides);
+        }
+        for (int sign = -1; sign < 2; sign += 2) {
+            const double beside[3] = {0, 0, 2 * sign};
+            double err = lrcsi_clip_divide(&round, beside, &left, &right);
+            check_same(err, sides < LRCSI_CLIP_MAX_SIDES ? 0 : -1);
+            assert_int_equal(sides < LRCSI_CLIP_MAX_SIDES ? (sign > 0 ? left : right).count : sides,
+                             sides);
+        }
+    }
+}
+
 static void a_box_shows_its_part_of_a_triangle(void **state)
 {
     (void)state;
@@ -159,6 +181,7 @@ int main(void)
         cmocka_unit_test(a_shape_with_too_many_crossings_is_refused),
         cmocka_unit_test(a_line_splits_what_it_crosses),
         cmocka_unit_test(both_parts_have_the_corners_of_the_cut),
+        cmocka_unit_test(a_polygon_with_too_many_corners_is_refused_on_either_side),
         cmocka_unit_test(a_box_shows_its_part_of_a_triangle),
         cmocka_unit_test(parts_are_those_of_cutting_and_add_up),
     };

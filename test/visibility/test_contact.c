@@ -10,8 +10,8 @@ static lrcs_work work;
 static lrcsi_view view;
 static lrcsi_target target;
 
-/* The target: (0,0,0) (4,0,0) (0,4,0), front up, seen from above; facet 1 as told. */
-static void look(const double a[3], const double b[3], const double c[3])
+/* The target: (0,0,0) (4,0,0) (0,4,0), front up, seen from above; facet 1 as given. */
+static void make_view(const double a[3], const double b[3], const double c[3])
 {
     plate_and(&scene, a, b, c, &work, &view);
     lrcsi_target_make(&view, 0, &target);
@@ -19,8 +19,8 @@ static void look(const double a[3], const double b[3], const double c[3])
 
 static int kind(double at_a, double at_b, double at_c, lrcsi_contact *c)
 {
-    look((const double[3]){1, 1, at_a}, (const double[3]){2, 1, at_b},
-         (const double[3]){1, 2, at_c});
+    make_view((const double[3]){1, 1, at_a}, (const double[3]){2, 1, at_b},
+              (const double[3]){1, 2, at_c});
     return lrcsi_contact_find(&target, 1, c);
 }
 
@@ -59,17 +59,18 @@ static void what_is_in_front_lies_left_of_a_contact(void **state)
 static void order_follows_from_either_plane_or_from_crossing_sides(void **state)
 {
     (void)state;
-    look((const double[3]){1, 1, 1}, (const double[3]){2, 1, 1}, (const double[3]){1, 2, 0});
+    make_view((const double[3]){1, 1, 1}, (const double[3]){2, 1, 1}, (const double[3]){1, 2, 0});
     assert_int_equal(lrcsi_sample_side(&view, 1, 0), 1);
     assert_int_equal(lrcsi_sample_side(&view, 0, 1), -1);
     /* Each has corners on both sides of the other's plane, yet they do not meet: in z = y - 1,
        where it is above the target. */
-    look((const double[3]){-1, 3, 2}, (const double[3]){-1, 0.5, -0.5}, (const double[3]){1, 3, 2});
+    make_view((const double[3]){-1, 3, 2}, (const double[3]){-1, 0.5, -0.5},
+              (const double[3]){1, 3, 2});
     assert_int_equal(lrcsi_sample_side(&view, 1, 0), 0);
     assert_int_equal(lrcsi_sample_overlap_order(&view, 1, 0), 1);
     assert_int_equal(lrcsi_sample_overlap_order(&view, 0, 1), -1);
-    look((const double[3]){-1, 3, -2}, (const double[3]){-1, 0.5, 0.5},
-         (const double[3]){1, 3, -2});
+    make_view((const double[3]){-1, 3, -2}, (const double[3]){-1, 0.5, 0.5},
+              (const double[3]){1, 3, -2});
     assert_int_equal(lrcsi_sample_side(&view, 1, 0), 0);
     assert_int_equal(lrcsi_sample_overlap_order(&view, 1, 0), -1);
 }

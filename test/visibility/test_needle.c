@@ -12,7 +12,7 @@ static lrcsi_needle needle;
 
 /* The facet (0,0,0) (1/4,0,1/2) (1/2,0,0), in the plane y = 0, seen from (1, 2^-thin, 1/2). Is it a
    needle? The scene is no larger than 1 in all, and so not scaled. */
-static int look(int thin)
+static int is_needle(int thin)
 {
     lrcs_pose pose;
     const double from[3] = {1, ldexp(1, -thin), 0.5};
@@ -45,10 +45,10 @@ static void point_of(double u, double v, double s, double x[3])
 static void only_what_double_double_tells_is_a_needle(void **state)
 {
     (void)state;
-    assert_int_equal(look(4), 0);
-    assert_int_equal(look(24), 1);
-    assert_int_equal(look(70), 1);
-    assert_int_equal(look(90), 0);
+    assert_int_equal(is_needle(4), 0);
+    assert_int_equal(is_needle(24), 1);
+    assert_int_equal(is_needle(70), 1);
+    assert_int_equal(is_needle(90), 0);
 }
 
 static void shares_are_exact_however_thin(void **state)
@@ -57,7 +57,7 @@ static void shares_are_exact_however_thin(void **state)
     static const double share[][3] = {{0, 0, 0},        {1, 0, 0.5},     {0, 1, -0.25},
                                       {0.25, 0.5, 0.5}, {-0.5, 0.75, 1}, {1.5, -0.125, 0}};
     for (int thin = 24; thin <= 70; thin += 2) {
-        assert_int_equal(look(thin), 1);
+        assert_int_equal(is_needle(thin), 1);
         for (size_t n = 0; n < sizeof share / sizeof *share; n++) {
             double x[3];
             lrcsi_dd at[2];
@@ -78,7 +78,7 @@ static void segments_are_clipped_to_what_is_near(void **state)
     double from[3];
     double to[3];
     double end[2][2];
-    assert_int_equal(look(50), 1);
+    assert_int_equal(is_needle(50), 1);
     point_of(-1, 0.25, 0, from);
     point_of(-1, 0.25, 1, to);
     to[1] = 0.125; /* off the plane by 2^47 of its width */
@@ -135,7 +135,7 @@ static void sides_are_decided_within_the_width_of_a_needle(void **state)
     double from[3];
     double to[3];
     for (int thin = 24; thin <= 48; thin += 4) {
-        assert_int_equal(look(thin), 1);
+        assert_int_equal(is_needle(thin), 1);
         point_of(0, 0.25, 0.25, from);
         point_of(0.5, 0.25, -0.5, to);
         const double on[2] = {0.25, 0.25};
@@ -157,7 +157,7 @@ static void lines_have_the_sign_of_the_side(void **state)
     double line[3];
     for (int thin = 24; thin <= 70; thin += 2) {
         uint32_t sure = 0;
-        assert_int_equal(look(thin), 1);
+        assert_int_equal(is_needle(thin), 1);
         point_of(-0.75, 0.125, 0.25, from);
         point_of(1.25, 0.375, -0.5, to);
         double clear = lrcsi_needle_line(&needle, from, to, line);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One facet at a time: what is visible of it comes as pieces whose area is the area told. */
+/* One facet at a time: what is visible of it comes as pieces whose area is that of the answer. */
 #include "visibility/occlude.h"
 
 #include "scenes.h"
@@ -30,8 +30,8 @@ static void start(void)
                 (const double[3]){0, 1, 0});
 }
 
-/* The area of all pieces, their count in *pieces; the facet's area as told in *told. */
-static double pieces_area(lrcsi_occlusion *o, uint32_t facet, uint32_t *pieces, double *told)
+/* The area of all pieces, their count in *pieces; the facet's area as answered in *answer. */
+static double pieces_area(lrcsi_occlusion *o, uint32_t facet, uint32_t *pieces, double *answer)
 {
     double area = 0;
     *pieces = 0;
@@ -42,7 +42,7 @@ static double pieces_area(lrcsi_occlusion *o, uint32_t facet, uint32_t *pieces, 
         ++*pieces;
     }
     assert_false(lrcsi_occlude_next(o));
-    *told = lrcsi_prepared_area(view.prepared, lrcsi_occlude_close(o).area);
+    *answer = lrcsi_prepared_area(view.prepared, lrcsi_occlude_close(o).area);
     assert_int_equal(work.used, used);
     return lrcsi_prepared_area(view.prepared, area);
 }
@@ -51,10 +51,10 @@ static void whole_facet_is_its_own_triangle(void **state)
 {
     (void)state;
     uint32_t pieces;
-    double told;
+    double answer;
     start();
     lrcsi_occlusion *o = open_scene();
-    check_rel(pieces_area(o, 1, &pieces, &told), 0.5, 1e-15);
+    check_rel(pieces_area(o, 1, &pieces, &answer), 0.5, 1e-15);
     assert_int_equal(pieces, 1);
     lrcsi_occlude_open(o, 1);
     assert_true(lrcsi_occlude_next(o));
@@ -69,7 +69,7 @@ static void hidden_and_edge_on_facets_have_no_pieces(void **state)
 {
     (void)state;
     uint32_t pieces;
-    double told;
+    double answer;
     start();
     scene_plate(&scene, (const double[3]){-1, -1, 2}, (const double[3]){4, 0, 0},
                 (const double[3]){0, 4, 0});
@@ -78,8 +78,8 @@ static void hidden_and_edge_on_facets_have_no_pieces(void **state)
     lrcsi_occlusion *o = open_scene();
     static const uint32_t none[] = {0, 1, 4, 5};
     for (int i = 0; i < 4; i++) {
-        check_same(pieces_area(o, none[i], &pieces, &told), 0);
-        check_same(told, 0);
+        check_same(pieces_area(o, none[i], &pieces, &answer), 0);
+        check_same(answer, 0);
         assert_int_equal(pieces, 0);
     }
 }
@@ -89,21 +89,21 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
 {
     (void)state;
     uint32_t pieces;
-    double told;
+    double answer;
     start();
     for (int i = 0; i < 64; i++) {
         scene_plate(&scene, (const double[3]){0.125 * (i % 8), 0.125 * (i / 8), 1},
                     (const double[3]){0.0625, 0, 0}, (const double[3]){0, 0.0625, 0});
     }
     lrcsi_occlusion *o = open_scene();
-    double first = pieces_area(o, 0, &pieces, &told);
-    check_same(told, first);
+    double first = pieces_area(o, 0, &pieces, &answer);
+    check_same(answer, first);
     assert_true(pieces > 20);
-    double second = pieces_area(o, 1, &pieces, &told);
-    check_same(told, second);
+    double second = pieces_area(o, 1, &pieces, &answer);
+    check_same(answer, second);
     check_rel(first + second, 0.75, 1e-14);
-    check_same(pieces_area(o, 0, &pieces, &told), first); /* however often it is asked */
-    check_same(told, first);
+    check_same(pieces_area(o, 0, &pieces, &answer), first); /* however often it is asked */
+    check_same(answer, first);
 }
 
 /* --- one facet in front of another, by hand --------------------------------------------------- */
@@ -125,7 +125,7 @@ static double share_left(const double direction[3], double *error)
     return seen.area / whole;
 }
 
-/* Facet 0: (0,0,0) (4,0,0) (0,4,0), front up; facet 1 as told. */
+/* Facet 0: (0,0,0) (4,0,0) (0,4,0), front up; facet 1 as given. */
 static void start_pair(const double a[3], const double b[3], const double c[3])
 {
     scene_start(&scene);
@@ -218,7 +218,7 @@ static void the_edge_of_a_facet_seen_edge_on_ends_its_surface(void **state)
 
 /* Facet 1 passes through a corner of facet 0 with a side, and lies above it although the plane of
    either parts the other's corners; no two of their sides cross in the view. Facet 0 is as wide as
-   1 and as long as told. */
+   1 and as long as given. */
 static void order_follows_from_corners_on_sides_of_a_needle_too(void **state)
 {
     (void)state;

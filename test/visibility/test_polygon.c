@@ -13,7 +13,7 @@ static lrcs_pose pose;
 static lrcs_polygons polygons;
 
 /* The scene's polygons; its records are those of the exact method. */
-static void look(const double direction[3])
+static void make_polygons(const double direction[3])
 {
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     scene_pose(&scene, prepared, &work, direction, LRCS_METHOD_EXACT, 0);
@@ -240,7 +240,7 @@ static void rings_have_the_area_of_rational_arithmetic(void **state)
     unsigned rings = 0;
     for (size_t i = 0; i < CASES; i++) {
         visible_scene(&scene, &cases[i], 1);
-        look(cases[i].direction);
+        make_polygons(cases[i].direction);
         for (uint32_t f = 0; f < cases[i].facets; f++) {
             check_facet(f, fmax(0, cases[i].share[f]));
         }
@@ -257,7 +257,7 @@ static void wholly_visible_facets_are_one_ring_of_their_corners(void **state)
     unsigned wholes = 0;
     for (size_t i = 0; i < CASES; i++) {
         visible_scene(&scene, &cases[i], 1);
-        look(cases[i].direction);
+        make_polygons(cases[i].direction);
         for (uint32_t f = 0; f < cases[i].facets; f++) {
             uint32_t end;
             uint32_t first = rings_of(f, &end);
@@ -401,7 +401,7 @@ static void rings_hold_just_the_points_that_are_seen(void **state)
     unsigned answers[2] = {0, 0};
     for (size_t i = 0; i < CASES; i++) {
         visible_scene(&scene, &cases[i], 0);
-        look(cases[i].direction);
+        make_polygons(cases[i].direction);
         int64_t d[3];
         for (int k = 0; k < 3; k++) {
             d[k] = (int64_t)cases[i].direction[k];
@@ -455,7 +455,7 @@ static void scenes_far_and_small_keep_their_rings(void **state)
         many_holes(4);
         scene_move(&scene, factor[i],
                    (const double[3]){64 * factor[i], -3 * factor[i], 8 * factor[i]});
-        look((const double[3]){0, 0, 1});
+        make_polygons((const double[3]){0, 0, 1});
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
             uint32_t end;
             uint32_t first = rings_of(f, &end);
@@ -471,7 +471,7 @@ static void empty_scenes_have_no_rings(void **state)
     scene_start(&scene);
     scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
                    (const double[3]){2, 0, 0});
-    look((const double[3]){0, 0, 1});
+    make_polygons((const double[3]){0, 0, 1});
     assert_int_equal(polygons.rings, 0);
     assert_int_equal(polygons.points, 0);
     check_same(polygons.bound_m2, 0);
@@ -488,7 +488,7 @@ static void a_needle_an_ulp_wide_is_a_ring_of_its_three_corners(void **state)
     scene_start(&scene);
     scene.material[0].two_sided = 1;
     scene_triangle(&scene, far, one, other);
-    look(direction);
+    make_polygons(direction);
     assert_int_equal(polygons.rings, 1);
     assert_int_equal(polygons.points, 3);
     assert_int_equal(polygons.ring[0].count, 3);

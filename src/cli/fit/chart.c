@@ -33,8 +33,8 @@ static double end_angle(const fit_material *material, int most)
     return angle;
 }
 
-/* Takes the readings, or their residuals, that are kept or that are excluded. */
-static void fit_points_take(const fit_job *job, int residuals, int outlier, chart_points *points)
+/* The readings, or their residuals, that are kept or that are excluded. */
+static void fit_points_make(const fit_job *job, int residuals, int outlier, chart_points *points)
 {
     const fit_material *material = &job->material[0];
     points->count = 0;
@@ -48,8 +48,8 @@ static void fit_points_take(const fit_job *job, int residuals, int outlier, char
     }
 }
 
-/* Takes the fit over all angles, or one of its two parts, glint or diffuse. */
-static void curve_take(const fit_job *job, int parts, chart_points *points)
+/* The fit over all angles, or one of its two parts, glint or diffuse. */
+static void fit_curve_make(const fit_job *job, int parts, chart_points *points)
 {
     const fit_material *material = &job->material[0];
     lrcs_brdf brdf = material->fit.brdf;
@@ -70,7 +70,7 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
     }
 }
 
-static void line_take(const fit_material *material, double y, chart_points *points)
+static void level_line_make(const fit_material *material, double y, chart_points *points)
 {
     points->count = 2;
     points->x[0] = end_angle(material, 0);
@@ -182,15 +182,15 @@ int cli_fit_chart(const fit_job *job, int residuals, const char *path)
         for (size_t i = 0; i < CHART_SERIES; i++) {
             points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
         }
-        fit_points_take(job, residuals, 0, &points[CHART_KEPT]);
-        fit_points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
+        fit_points_make(job, residuals, 0, &points[CHART_KEPT]);
+        fit_points_make(job, residuals, 1, &points[CHART_OUTLIERS]);
         for (int k = CHART_FIT; k < CHART_SERIES; k++) {
             static const double line[] = {0.0, 2.0, -2.0};
             static const int parts[] = {3, 1, 2};
             if (residuals) {
-                line_take(&job->material[0], line[k - CHART_FIT], &points[k]);
+                level_line_make(&job->material[0], line[k - CHART_FIT], &points[k]);
             } else {
-                curve_take(job, parts[k - CHART_FIT], &points[k]);
+                fit_curve_make(job, parts[k - CHART_FIT], &points[k]);
             }
         }
         for (size_t i = 0; residuals && i <= CHART_OUTLIERS; i++) {

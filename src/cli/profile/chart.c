@@ -13,7 +13,7 @@
 
 /* The density of each group of bins as two points, and the pulse at its first bin as one. Returns
    the number of groups. */
-static uint32_t profile_points_take(const profile_job *job, uint32_t group, double *x,
+static uint32_t profile_points_make(const profile_job *job, uint32_t group, double *x,
                                     double *density, double *middle, double *pulse)
 {
     size_t count = 0;
@@ -51,7 +51,7 @@ static int profile_chart_draw(const profile_job *job, double *number, size_t roo
                                    .y = number + 3 * room,
                                    .colour = LRCS_HOST_VERMILION,
                                    .marker = LRCS_HOST_NO_MARKER}};
-    uint32_t groups = profile_points_take(job, group, number, number + room, number + 2 * room,
+    uint32_t groups = profile_points_make(job, group, number, number + room, number + 2 * room,
                                           number + 3 * room);
     series[0].count = 2 * groups;
     series[1].count = job->fwhm_m > 0.0 ? groups : 0;

@@ -41,7 +41,6 @@ typedef struct run_caveats {
 #define RUN_BUDGET_PARTS 1024u
 
 /* The inputs and results of a run. */
-
 typedef struct run_job {
     const cli_args *args;
     lrcs_pose pose;
@@ -51,8 +50,7 @@ typedef struct run_job {
     uint32_t image_size;
     lrcs_host_scene scene;
     lrcs_result result;
-    unsigned char
-        halvings[RUN_BUDGET_PARTS]; /* of load.build, after a search for the best settings */
+    unsigned char halvings[RUN_BUDGET_PARTS]; /* of load.build, after such a search */
     lrcs_facet_record *records;
     int announced; /* that it takes long */
     int divided;   /* 1: cli_run_divide has run the pose */
@@ -106,9 +104,9 @@ int cli_run_divide(run_job *job);
    tolerance of 0 means none and is never met. */
 int cli_run_meets(const lrcs_result *result, double tolerance);
 
-/* --time-budget: reads its value, 0 or CLI_USAGE; then searches, on a scene just read:
-   result and seconds are set, and options and scene are those that reproduce
-   them. 0, CLI_FAILED or CLI_USAGE. */
+/* --time-budget: reads its value, 0 or CLI_USAGE; then searches, on a scene just read: result and
+   seconds are set, and options and scene are those that reproduce them. 0, CLI_FAILED or
+   CLI_USAGE. */
 int cli_run_budget_read(run_job *job);
 int cli_run_budget(run_job *job);
 

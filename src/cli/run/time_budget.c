@@ -64,33 +64,21 @@ static pid_t child_parent;
 
 /* ---- answers in a pipe ---- */
 
-/* Writes an answer, in parts if the pipe takes no more at once. Returns 0 if nobody reads. */
-static int answer_write(int answers, const budget_answer *answer)
-{
-    const unsigned char *bytes = (const unsigned char *)answer;
-    size_t done = 0;
-    while (done < sizeof *answer) {
-        ssize_t count = write(answers, bytes + done, sizeof *answer - done);
-        if (count <= 0 && !(count < 0 && errno == EINTR)) {
-            return 0;
-        }
-        done += count > 0 ? (size_t)count : 0;
-    }
-    return 1;
-}
-
-/* Reads an answer. Returns 0 at the end of the answers; one that the child could not finish does
+/* Writes an answer to the pipe or reads one from it, in parts if the pipe takes no more at once.
+   Returns 0 if nobody reads, or at the end of the answers; one that the child could not finish does
    not count. */
-static int answer_read(int answers, budget_answer *answer)
+static int answer_transfer(int answers, int writes, budget_answer *answer)
 {
     unsigned char *bytes = (unsigned char *)answer;
-    size_t done = 0;
-    while (done < sizeof *answer) {
-        ssize_t count = read(answers, bytes + done, sizeof *answer - done);
-        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+    for (size_t done = 0; done < sizeof *answer;) {
+        size_t left = sizeof *answer - done;
+        ssize_t count =
+            writes ? write(answers, bytes + done, left) : read(answers, bytes + done, left);
+        if (count > 0) {
+            done += (size_t)count;
+        } else if (count == 0 || errno != EINTR) {
             return 0;
         }
-        done += count > 0 ? (size_t)count : 0;
     }
     return 1;
 }
@@ -139,7 +127,7 @@ static int budget_setting_run(run_job *job, budget_answer *answer)
    the run failed, if nobody reads, or if the answer meets the tolerance asked for. */
 static int setting_send(run_job *job, int answers, budget_answer *answer)
 {
-    return budget_setting_run(job, answer) == 0 && answer_write(answers, answer) &&
+    return budget_setting_run(job, answer) == 0 && answer_transfer(answers, 1, answer) &&
            !cli_run_meets(&answer->result, job->asked);
 }
 
@@ -264,7 +252,7 @@ static int answer_is_better(const budget_answer *answer, const budget_answer *be
 static void budget_answers_read(int answers, pid_t child, budget_answer *best)
 {
     budget_answer answer;
-    while (answer_read(answers, &answer)) {
+    while (answer_transfer(answers, 0, &answer)) {
         if (answer_is_better(&answer, best)) {
             *best = answer;
         }

@@ -19,7 +19,7 @@ static const struct {
     {"direction", 3, "x,y,z (to the laser, body frame)", "a vector that is not zero"},
     {"azel", 2, "AZ,EL in degrees", "AZ,EL in degrees"},
     {"euler", 3, "SEQ:a,b,c with SEQ three letters and a, b, c in degrees (XYZ:10,20,30)", NULL},
-    {"quaternion", 4, "w,x,y,z (body to observation)", "one that is not zero"}};
+    {"quaternion", 4, "w,x,y,z (body to observation)", "a quaternion that is not zero"}};
 
 int lrcs_host_pose_read(const char *way, const char *text, lrcs_pose *pose, lrcs_host_error *error)
 {

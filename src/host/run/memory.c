@@ -11,7 +11,8 @@
 #include <sys/mman.h>
 #include <time.h>
 
-#define STEP_TRIES 12
+/* Each attempt has at least twice the memory of the last: 2^11 times the need of the first. */
+#define ATTEMPTS 12
 /* The large pages of most machines that have any; with others the request has no effect. */
 #define LARGE_PAGE ((size_t)1 << 21)
 
@@ -68,57 +69,49 @@ char *lrcsi_host_copy(lrcs_host_scene *scene, const char *text, size_t size)
     return copy;
 }
 
-/* The size of the next work area for a step that did not fit. */
-static size_t step_grown(size_t need, const lrcs_work *work)
+lrcsi_host_attempt lrcsi_host_attempt_make(lrcsi_host_area *area, size_t need)
 {
-    size_t twice = need <= SIZE_MAX / 2 ? 2 * need : SIZE_MAX;
-    return work->peak > twice ? work->peak : twice;
+    return (lrcsi_host_attempt){
+        .area = area, .need = need, .left = ATTEMPTS, .status = LRCS_E_MEMORY};
 }
 
-int lrcsi_host_step_run(void **blocks, size_t need, lrcsi_host_step *step, void *context,
-                        lrcs_host_error *error)
+int lrcsi_host_attempt_next(lrcsi_host_attempt *attempt, lrcs_host_error *error)
 {
-    int status = LRCS_E_MEMORY;
-    for (int i = 0; i < STEP_TRIES && status == LRCS_E_MEMORY; i++) {
-        host_block *block = block_make(need);
-        if (!block) {
-            return lrcsi_host_fail_memory(error, need);
-        }
-        lrcs_work work = lrcs_work_make(block + 1, need);
-        status = step(context, &work);
-        if (status == LRCS_OK) {
-            block_own(blocks, block);
-        } else {
-            free(block);
-        }
-        need = step_grown(need, &work);
+    lrcsi_host_area *area = attempt->area;
+    if (attempt->status != LRCS_E_MEMORY || attempt->left == 0) {
+        return 0;
     }
-    return status;
+    if (attempt->left < ATTEMPTS) { /* the last one did not fit */
+        size_t twice = attempt->need <= SIZE_MAX / 2 ? 2 * attempt->need : SIZE_MAX;
+        attempt->need = attempt->work.peak > twice ? attempt->work.peak : twice;
+    }
+    if (!area->block || attempt->need > area->size) {
+        lrcsi_host_area_free(area);
+        area->block = block_make(attempt->need);
+        area->size = area->block ? attempt->need : 0;
+    }
+    if (!area->block) {
+        attempt->status = lrcsi_host_fail_memory(error, attempt->need);
+        return 0;
+    }
+    attempt->left--;
+    attempt->work = lrcs_work_make(area->block + 1, attempt->need);
+    return 1;
 }
 
-int lrcsi_host_area_run(lrcsi_host_area *area, size_t need, lrcsi_host_step *step, void *context,
-                        lrcs_host_error *error)
+int lrcsi_host_attempt_keep(lrcsi_host_attempt *attempt, void **blocks)
 {
-    int status = LRCS_E_MEMORY;
-    for (int i = 0; i < STEP_TRIES && status == LRCS_E_MEMORY; i++) {
-        if (need > area->size) {
-            lrcsi_host_area_free(area);
-            area->bytes = memory_take(need);
-            area->size = area->bytes ? need : 0;
-        }
-        if (need > area->size) {
-            return lrcsi_host_fail_memory(error, need);
-        }
-        lrcs_work work = lrcs_work_make(area->bytes, need);
-        status = step(context, &work);
-        need = step_grown(need, &work);
+    if (attempt->status == LRCS_OK) {
+        block_own(blocks, attempt->area->block);
+        *attempt->area = (lrcsi_host_area){NULL, 0};
     }
-    return status;
+    lrcsi_host_area_free(attempt->area);
+    return attempt->status;
 }
 
 void lrcsi_host_area_free(lrcsi_host_area *area)
 {
-    free(area->bytes);
+    free(area->block);
     *area = (lrcsi_host_area){NULL, 0};
 }
 

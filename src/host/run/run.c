@@ -18,9 +18,8 @@ _Static_assert((int)LRCS_HOST_PREPARE_STAGES == LRCSI_PREPARE_STAGES &&
                "the core's stages under public names");
 
 /* lrcs_prepare_run, its stages timed; the first holds the checks. */
-static int run_prepare(void *context, lrcs_work *work)
+static int run_prepare(lrcs_host_scene *scene, lrcs_work *work)
 {
-    lrcs_host_scene *scene = context;
     lrcs_prepared *p = NULL;
     double start = lrcsi_host_seconds();
     int status = lrcsi_prepare_start(&scene->scene, work, &p);
@@ -44,21 +43,18 @@ static int run_fail(lrcs_host_error *error, int status, const char *what)
 int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error)
 {
     double start = lrcsi_host_seconds();
-    size_t need = lrcs_prepare_need(&scene->scene);
-    int status = lrcsi_host_step_run(&scene->blocks, need, run_prepare, scene, error);
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt = lrcsi_host_attempt_make(&area, lrcs_prepare_need(&scene->scene));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = run_prepare(scene, &attempt.work);
+    }
+    int status = lrcsi_host_attempt_keep(&attempt, &scene->blocks);
     scene->seconds_prepare = lrcsi_host_seconds() - start;
     return run_fail(error, status, "preparing the scene");
 }
 
-typedef struct sigma_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_run_options *options;
-    lrcs_result *result;
-    lrcs_facet_record *records;
-    lrcs_image *image;
-    int tries; /* left, with more memory, if the answer is degraded for lack of memory */
-} sigma_step;
+/* How often an answer that lack of memory has degraded is computed again, with more. */
+#define DEGRADED_TRIES 6
 
 /* LRCS_E_MEMORY, which asks for a larger work area, if the answer was degraded because of lack of
    memory, tries are left, and the heap has what the next one needs; else the status. */
@@ -73,14 +69,6 @@ static int more_memory(int status, const lrcs_result *result, const lrcs_work *w
     void *probe = malloc((work->peak > twice ? work->peak : twice) + 64);
     free(probe);
     return probe ? LRCS_E_MEMORY : status;
-}
-
-static int run_sigma(void *context, lrcs_work *work)
-{
-    sigma_step *step = context;
-    int status = lrcs_sigma_run(step->prepared, step->pose, step->options, work, step->result,
-                                step->records, step->image);
-    return more_memory(status, step->result, work, &step->tries);
 }
 
 /* The size of the first work area. If the heap has less than needed, the raster is coarser, and a
@@ -112,10 +100,15 @@ int lrcsi_host_sigma(const lrcs_host_scene *scene, const lrcs_pose *pose,
                      const lrcs_run_options *options, lrcsi_host_area *area, lrcs_result *result,
                      lrcs_facet_record *records, lrcs_image *image, lrcs_host_error *error)
 {
-    sigma_step step = {scene->prepared, pose, options, result, records, image, 6};
-    size_t need = sigma_bytes(scene, options, image, area);
-    int status = lrcsi_host_area_run(area, need, run_sigma, &step, error);
-    return run_fail(error, status, "sigma");
+    int tries = DEGRADED_TRIES;
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(area, sigma_bytes(scene, options, image, area));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        int status =
+            lrcs_sigma_run(scene->prepared, pose, options, &attempt.work, result, records, image);
+        attempt.status = more_memory(status, result, &attempt.work, &tries);
+    }
+    return run_fail(error, attempt.status, "sigma");
 }
 
 int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -133,38 +126,23 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     return status;
 }
 
-typedef struct uncertainty_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_run_options *options;
-    const lrcs_uncertainty_options *how;
-    lrcs_result *result;
-    lrcs_sensitivity *sensitivity;
-    lrcs_uncertainty *uncertainty;
-    int tries; /* as sigma_step */
-} uncertainty_step;
-
-static int run_uncertainty(void *context, lrcs_work *work)
-{
-    uncertainty_step *step = context;
-    int status = lrcs_uncertainty_run(step->prepared, step->pose, step->options, step->how, work,
-                                      step->result, step->sensitivity, step->uncertainty);
-    return more_memory(status, step->result, work, &step->tries);
-}
-
 int lrcsi_host_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
                            const lrcs_run_options *options, const lrcs_uncertainty_options *how,
                            lrcsi_host_area *area, lrcs_result *result,
                            lrcs_sensitivity *sensitivity, lrcs_uncertainty *uncertainty,
                            lrcs_host_error *error)
 {
-    uncertainty_step step = {scene->prepared, pose,        options,     how,
-                             result,          sensitivity, uncertainty, 6};
+    int tries = DEGRADED_TRIES;
     size_t own = lrcs_uncertainty_need(scene->prepared, options, how) -
                  lrcs_sigma_need(scene->prepared, options);
-    size_t need = sigma_bytes(scene, options, NULL, area) + own;
-    int status = lrcsi_host_area_run(area, need, run_uncertainty, &step, error);
-    return run_fail(error, status, "the uncertainty of sigma");
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(area, sigma_bytes(scene, options, NULL, area) + own);
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        int status = lrcs_uncertainty_run(scene->prepared, pose, options, how, &attempt.work,
+                                          result, sensitivity, uncertainty);
+        attempt.status = more_memory(status, result, &attempt.work, &tries);
+    }
+    return run_fail(error, attempt.status, "the uncertainty of sigma");
 }
 
 int lrcs_host_scene_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -180,143 +158,89 @@ int lrcs_host_scene_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *p
     return status;
 }
 
-typedef struct slope_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_run_options *options;
-    lrcs_attitude_slope *slope;
-} slope_step;
-
-static int run_slope(void *context, lrcs_work *work)
-{
-    slope_step *step = context;
-    return lrcs_attitude_slope_run(step->prepared, step->pose, step->options, work, step->slope);
-}
-
 int lrcs_host_scene_attitude_slope(const lrcs_host_scene *scene, const lrcs_pose *pose,
                                    const lrcs_run_options *options, lrcs_attitude_slope *slope,
                                    lrcs_host_error *error)
 {
-    slope_step step = {scene->prepared, pose, options, slope};
     lrcsi_host_area area = {NULL, 0};
-    size_t need = sigma_bytes(scene, options, NULL, &area);
-    int status = lrcsi_host_area_run(&area, need, run_slope, &step, error);
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, sigma_bytes(scene, options, NULL, &area));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status =
+            lrcs_attitude_slope_run(scene->prepared, pose, options, &attempt.work, slope);
+    }
     lrcsi_host_area_free(&area);
-    return run_fail(error, status, "the derivatives in attitude");
-}
-
-typedef struct until_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_run_options *options;
-    int stage;
-} until_step;
-
-static int run_until(void *context, lrcs_work *work)
-{
-    until_step *step = context;
-    return lrcsi_sigma_until(step->prepared, step->pose, step->options, step->stage, work);
+    return run_fail(error, attempt.status, "the derivatives in attitude");
 }
 
 int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pose,
                               const lrcs_run_options *options, int stage, lrcs_host_error *error)
 {
-    until_step step = {scene->prepared, pose, options, stage};
+    if (stage < 0 || stage >= LRCS_HOST_POSE_STAGES) {
+        return run_fail(error, LRCS_E_ARGUMENT, "sigma");
+    }
     lrcsi_host_area area = {NULL, 0};
-    int status = stage >= 0 && stage < LRCS_HOST_POSE_STAGES ? LRCS_OK : LRCS_E_ARGUMENT;
-    if (status == LRCS_OK) {
-        size_t need = sigma_bytes(scene, options, NULL, &area);
-        status = lrcsi_host_area_run(&area, need, run_until, &step, error);
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, sigma_bytes(scene, options, NULL, &area));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcsi_sigma_until(scene->prepared, pose, options, stage, &attempt.work);
     }
     lrcsi_host_area_free(&area);
-    return run_fail(error, status, "sigma");
-}
-
-typedef struct forecast_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_run_options *options;
-    uint32_t count;
-    double *seconds;
-} forecast_step;
-
-static int run_forecast(void *context, lrcs_work *work)
-{
-    forecast_step *step = context;
-    return lrcsi_forecast_run(step->prepared, step->pose, step->options, step->count, work,
-                              step->seconds);
+    return run_fail(error, attempt.status, "sigma");
 }
 
 int lrcs_host_scene_forecast(const lrcs_host_scene *scene, const lrcs_pose *pose,
                              const lrcs_run_options *options, uint32_t count, double *seconds,
                              lrcs_host_error *error)
 {
-    forecast_step step = {scene->prepared, pose, options, count, seconds};
     lrcsi_host_area area = {NULL, 0};
-    int status = lrcsi_host_area_run(&area, lrcsi_forecast_need(scene->prepared), run_forecast,
-                                     &step, error);
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, lrcsi_forecast_need(scene->prepared));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status =
+            lrcsi_forecast_run(scene->prepared, pose, options, count, &attempt.work, seconds);
+    }
     lrcsi_host_area_free(&area);
-    return run_fail(error, status, "forecast");
-}
-
-typedef struct emulate_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    const lrcs_emulation_options *options;
-    lrcs_emulation *emulation;
-    lrcs_facet_record *records;
-} emulate_step;
-
-static int run_emulate(void *context, lrcs_work *work)
-{
-    emulate_step *step = context;
-    return lrcs_emulate_run(step->prepared, step->pose, step->options, work, step->emulation,
-                            step->records, NULL);
+    return run_fail(error, attempt.status, "forecast");
 }
 
 int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
                             const lrcs_emulation_options *options, lrcs_emulation *emulation,
                             lrcs_facet_record *records, double *seconds, lrcs_host_error *error)
 {
-    emulate_step step = {scene->prepared, pose, options, emulation, records};
     lrcsi_host_area area = {NULL, 0};
     double start = lrcsi_host_seconds();
-    int status = lrcsi_host_area_run(&area, lrcs_emulate_need(scene->prepared, options),
-                                     run_emulate, &step, error);
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, lrcs_emulate_need(scene->prepared, options));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcs_emulate_run(scene->prepared, pose, options, &attempt.work, emulation,
+                                          records, NULL);
+    }
     if (seconds) {
         *seconds = lrcsi_host_seconds() - start;
     }
     lrcsi_host_area_free(&area);
-    if (status == LRCS_E_NUMBER) {
-        return lrcsi_host_fail(error, status,
+    if (attempt.status == LRCS_E_NUMBER) {
+        return lrcsi_host_fail(error, attempt.status,
                                "emulating: sigma, or the contribution of a pixel, is beyond the "
                                "range of %s",
                                lrcs_precision_text(options->precision));
     }
-    return run_fail(error, status, "emulating");
+    return run_fail(error, attempt.status, "emulating");
 }
 
 /* ---- results in memory of their own ---- */
-
-typedef struct polygon_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    lrcs_polygons *list;
-} polygon_step;
-
-static int run_polygons(void *context, lrcs_work *work)
-{
-    polygon_step *step = context;
-    return lrcs_polygon_run(step->prepared, step->pose, work, step->list);
-}
 
 int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
                             lrcs_host_polygons *polygons, lrcs_host_error *error)
 {
     lrcs_host_polygons p = {{0}, NULL};
-    polygon_step step = {scene->prepared, pose, &p.list};
-    size_t need = lrcs_polygon_need(scene->prepared);
-    int status = lrcsi_host_step_run(&p.blocks, need, run_polygons, &step, error);
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt = lrcsi_host_attempt_make(&area, lrcs_polygon_need(scene->prepared));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcs_polygon_run(scene->prepared, pose, &attempt.work, &p.list);
+    }
+    int status = lrcsi_host_attempt_keep(&attempt, &p.blocks);
     if (status == LRCS_OK) {
         *polygons = p;
     }
@@ -327,19 +251,6 @@ void lrcs_host_polygons_free(lrcs_host_polygons *polygons)
 {
     lrcsi_host_free(polygons->blocks);
     *polygons = (lrcs_host_polygons){{0}, NULL};
-}
-
-typedef struct profile_step {
-    const lrcs_prepared *prepared;
-    const lrcs_pose *pose;
-    double bin_m;
-    lrcs_profile *list;
-} profile_step;
-
-static int run_profile(void *context, lrcs_work *work)
-{
-    profile_step *step = context;
-    return lrcs_profile_run(step->prepared, step->pose, step->bin_m, work, step->list);
 }
 
 /* The largest coordinate of a vertex in absolute value, m. A range is less than 4 times that. */
@@ -358,9 +269,13 @@ int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, 
                            lrcs_host_profile *profile, lrcs_host_error *error)
 {
     lrcs_host_profile p = {{0}, NULL};
-    profile_step step = {scene->prepared, pose, bin_m, &p.list};
-    size_t need = lrcs_profile_need(scene->prepared, bin_m);
-    int status = lrcsi_host_step_run(&p.blocks, need, run_profile, &step, error);
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, lrcs_profile_need(scene->prepared, bin_m));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcs_profile_run(scene->prepared, pose, bin_m, &attempt.work, &p.list);
+    }
+    int status = lrcsi_host_attempt_keep(&attempt, &p.blocks);
     if (status == LRCS_OK) {
         *profile = p;
     }

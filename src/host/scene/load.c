@@ -24,19 +24,6 @@ lrcs_host_options lrcs_host_options_default(void)
 
 /* ---- the recipe ---- */
 
-typedef struct recipe_step {
-    const char *text;
-    size_t size;
-    lrcs_recipe *recipe;
-    lrcs_where where;
-} recipe_step;
-
-static int recipe_read(void *context, lrcs_work *work)
-{
-    recipe_step *step = context;
-    return lrcs_recipe_read(step->text, step->size, work, step->recipe, &step->where);
-}
-
 static int names_scene_file(const char *path)
 {
     const char *dot = strrchr(lrcsi_host_basename(path), '.');
@@ -76,18 +63,22 @@ static void nearest_append(lrcs_host_error *error, int status, const lrcs_where 
 static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char *text, size_t size,
                             lrcs_host_error *error)
 {
-    recipe_step step = {.size = size, .recipe = &scene->recipe};
-    step.text = lrcsi_host_copy(scene, text, size);
-    if (!step.text) {
+    const char *kept = lrcsi_host_copy(scene, text, size);
+    if (!kept) {
         return lrcsi_host_fail_memory(error, size);
     }
-    int status =
-        lrcsi_host_step_run(&scene->blocks, lrcs_recipe_need(size), recipe_read, &step, error);
+    lrcs_where where = {0};
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt = lrcsi_host_attempt_make(&area, lrcs_recipe_need(size));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcs_recipe_read(kept, size, &attempt.work, &scene->recipe, &where);
+    }
+    int status = lrcsi_host_attempt_keep(&attempt, &scene->blocks);
     if (status == LRCS_OK || status == LRCS_E_SYSTEM) {
         return status;
     }
-    lrcsi_host_fail_where(error, status, path, &step.where);
-    nearest_append(error, status, &step.where);
+    lrcsi_host_fail_where(error, status, path, &where);
+    nearest_append(error, status, &where);
     if (error && strcmp(path, "demo") != 0 && !names_scene_file(path)) {
         size_t used = strlen(error->text);
         snprintf(error->text + used, sizeof error->text - used,
@@ -170,31 +161,24 @@ static int recipe_from_file(lrcs_host_scene *scene, const char *path, const lrcs
 
 /* ---- the scene ---- */
 
-typedef struct build_step {
-    lrcs_host_scene *scene;
-    const lrcs_build_options *options;
-    lrcs_where where;
-} build_step;
-
-static int scene_build(void *context, lrcs_work *work)
-{
-    build_step *step = context;
-    return lrcs_scene_build(&step->scene->recipe, step->scene->model, step->options, work,
-                            &step->scene->scene, &step->where);
-}
-
 static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
                              const lrcs_build_options *options, lrcs_host_error *error)
 {
-    build_step step = {.scene = scene, .options = options};
-    size_t need = lrcs_scene_need(&scene->recipe, scene->model, options);
-    int status = lrcsi_host_step_run(&scene->blocks, need, scene_build, &step, error);
+    lrcs_where where = {0};
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt =
+        lrcsi_host_attempt_make(&area, lrcs_scene_need(&scene->recipe, scene->model, options));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = lrcs_scene_build(&scene->recipe, scene->model, options, &attempt.work,
+                                          &scene->scene, &where);
+    }
+    int status = lrcsi_host_attempt_keep(&attempt, &scene->blocks);
     if (status == LRCS_OK && scene->two_sided) {
         return lrcsi_host_sides(scene, scene->two_sided, error);
     }
     return status == LRCS_OK || status == LRCS_E_SYSTEM
                ? status
-               : lrcsi_host_fail_where(error, status, path, &step.where);
+               : lrcsi_host_fail_where(error, status, path, &where);
 }
 
 /* The line of the key `file` of the part that begins at a line of a scene file. */

@@ -123,66 +123,61 @@ static void notices_add(lrcs_host_scene *scene, const char *path, int format, co
     }
 }
 
-typedef struct model_step {
-    int format;
-    const lrcs_host_file *file;
-    lrcs_mesh *mesh;
-    lrcs_where where;
-} model_step;
-
-static int model_count(model_step *step, lrcs_mesh_counts *counts)
+static int model_count(int format, const lrcs_host_file *file, lrcs_mesh_counts *counts,
+                       lrcs_where *where)
 {
-    const unsigned char *bytes = step->file->bytes;
-    size_t size = step->file->size;
-    switch (step->format) {
+    switch (format) {
     case LRCS_FORMAT_3DS:
-        return lrcs_3ds_count(bytes, size, counts, &step->where);
+        return lrcs_3ds_count(file->bytes, file->size, counts, where);
     case LRCS_FORMAT_OBJ:
-        return lrcs_obj_count(bytes, size, counts, &step->where);
+        return lrcs_obj_count(file->bytes, file->size, counts, where);
     default:
-        return lrcs_stl_count(bytes, size, counts, &step->where);
+        return lrcs_stl_count(file->bytes, file->size, counts, where);
     }
 }
 
-static int model_read(void *context, lrcs_work *work)
+static int model_read(int format, const lrcs_host_file *file, lrcs_work *work, lrcs_mesh *mesh,
+                      lrcs_where *where)
 {
-    model_step *step = context;
-    const unsigned char *bytes = step->file->bytes;
-    size_t size = step->file->size;
-    switch (step->format) {
+    switch (format) {
     case LRCS_FORMAT_3DS:
-        return lrcs_3ds_read(bytes, size, work, step->mesh, &step->where);
+        return lrcs_3ds_read(file->bytes, file->size, work, mesh, where);
     case LRCS_FORMAT_OBJ:
-        return lrcs_obj_read(bytes, size, work, step->mesh, &step->where);
+        return lrcs_obj_read(file->bytes, file->size, work, mesh, where);
     default:
-        return lrcs_stl_read(bytes, size, work, step->mesh, &step->where);
+        return lrcs_stl_read(file->bytes, file->size, work, mesh, where);
     }
 }
 
 int lrcsi_host_model_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *file,
                           lrcs_mesh *mesh, lrcs_host_error *error)
 {
-    model_step step = {.file = file, .mesh = mesh};
+    lrcs_where where = {0};
     lrcs_mesh_counts counts = {0};
-    step.format = lrcs_format_check(file->bytes, file->size, lrcsi_host_basename(path));
-    if (step.format == LRCS_FORMAT_UNKNOWN) {
+    int format = lrcs_format_check(file->bytes, file->size, lrcsi_host_basename(path));
+    if (format == LRCS_FORMAT_UNKNOWN) {
         return lrcsi_host_fail(error, LRCS_E_SYNTAX, "%s: not a model: expected 3DS, OBJ or STL",
                                path);
     }
-    int status = model_count(&step, &counts);
+    int status = model_count(format, file, &counts, &where);
     if (status != LRCS_OK) {
-        return lrcsi_host_fail_where(error, status, path, &step.where);
+        return lrcsi_host_fail_where(error, status, path, &where);
     }
-    status = lrcsi_host_step_run(&scene->blocks, lrcs_mesh_need(&counts), model_read, &step, error);
+    lrcsi_host_area area = {NULL, 0};
+    lrcsi_host_attempt attempt = lrcsi_host_attempt_make(&area, lrcs_mesh_need(&counts));
+    while (lrcsi_host_attempt_next(&attempt, error)) {
+        attempt.status = model_read(format, file, &attempt.work, mesh, &where);
+    }
+    status = lrcsi_host_attempt_keep(&attempt, &scene->blocks);
     if (status == LRCS_E_SYSTEM) {
         return status;
     }
     if (status != LRCS_OK) {
-        return lrcsi_host_fail_where(error, status, path, &step.where);
+        return lrcsi_host_fail_where(error, status, path, &where);
     }
-    if (step.format == LRCS_FORMAT_OBJ) {
+    if (format == LRCS_FORMAT_OBJ) {
         status = materials_read(scene, path, mesh, error);
     }
-    notices_add(scene, path, step.format, mesh);
+    notices_add(scene, path, format, mesh);
     return status;
 }

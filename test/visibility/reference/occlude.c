@@ -467,13 +467,13 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
 }
 
 int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
-                    lrcsi_visible_area *visible, uint32_t *starved)
+                    lrcsi_visible_area *visible, uint32_t *too_little)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     ref_occluding o;
     int status = ref_occlude_make(classification, work, &o);
-    *starved = 0;
+    *too_little = 0;
     if (status == LRCS_OK) {
         lrcsi_visible_areas_from_answers(view, o.uniform, visible);
     }
@@ -493,7 +493,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
             visible[f] = ref_occlude_area(&o);
         } else if (parted || (o.uniform[f] == LRCSI_QUERY_UNDECIDED && !found[f])) {
             visible[f] = ref_occlude_unknown(view, f);
-            *starved += (uint32_t)parted;
+            *too_little += (uint32_t)parted;
         }
     }
     work->used = mark;

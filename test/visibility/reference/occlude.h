@@ -77,10 +77,10 @@ lrcsi_visible_area ref_occlude_unknown(const lrcsi_view *view, uint32_t facet);
 
 /* The visible areas of all facets: of uniform facets from one exact sample, of undecided facets
    cell by cell, unless one component hides the whole facet. A facet for whose cuts there is not
-   enough memory is bounded by 0 and its whole area; *starved counts those. If a facet needs more
+   enough memory is bounded by 0 and its whole area; *too_little counts those. If a facet needs more
    cells than the limit, its bounds follow from the cells that were processed. Status: LRCS_OK;
    LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
 int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
-                    lrcsi_visible_area *visible, uint32_t *starved);
+                    lrcsi_visible_area *visible, uint32_t *too_little);
 
 #endif

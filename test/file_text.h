@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a writer wrote into a temporary file. */
-#ifndef LRCS_TEST_WRITTEN_H
-#define LRCS_TEST_WRITTEN_H
+#ifndef TEST_FILE_TEXT_H
+#define TEST_FILE_TEXT_H
 
 #include "check.h"
 
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 /* The file as a string that the caller frees; closes it. */
-static inline char *written(FILE *file)
+static inline char *file_text(FILE *file)
 {
     size_t size = (size_t)ftell(file);
     char *text = calloc(size + 1, 1);

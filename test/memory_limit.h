@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Memory limits: a function that takes its memory from a work area, called with every size of it
    from nothing to what its _need says. */
-#ifndef TEST_STARVE_H
-#define TEST_STARVE_H
+#ifndef TEST_MEMORY_LIMIT_H
+#define TEST_MEMORY_LIMIT_H
 
 #include <stdlib.h>
 
 #include "check.h"
 
-#define STARVE_CANARY 64
+#define MEMORY_CANARY 64
 
-typedef struct starved {
+typedef struct memory_case {
     const char *name;
     size_t need;
     int (*call)(lrcs_work *work);
@@ -20,22 +20,22 @@ typedef struct starved {
     /* NULL: a call that is served wants no more than it was given. Else: is what it wanted right?
      */
     int (*wanted)(size_t wanted, size_t size);
-} starved;
+} memory_case;
 
-#define STARVED(name, need, call, output, stays)                                                   \
-    (&(const starved){name, need, call, &(output), sizeof(output), stays, NULL})
+#define MEMORY_CASE(name, need, call, output, stays)                                               \
+    (&(const memory_case){name, need, call, &(output), sizeof(output), stays, NULL})
 
 /* One call in so many bytes, with a canary behind them. */
-static int starve_once(const starved *s, unsigned char *memory, size_t size)
+static int memory_limit_at(const memory_case *s, unsigned char *memory, size_t size)
 {
     unsigned char *before = malloc(s->output_size);
     assert_non_null(before);
     memset(s->output, 0x5a, s->output_size);
     memcpy(before, s->output, s->output_size);
-    memset(memory + size, 0xc3, STARVE_CANARY);
+    memset(memory + size, 0xc3, MEMORY_CANARY);
     lrcs_work work = lrcs_work_make(memory, size);
     int status = s->call(&work);
-    for (int i = 0; i < STARVE_CANARY; i++) {
+    for (int i = 0; i < MEMORY_CANARY; i++) {
         assert_int_equal(memory[size + (size_t)i], 0xc3);
     }
     if (status == LRCS_OK) {
@@ -53,13 +53,13 @@ static int starve_once(const starved *s, unsigned char *memory, size_t size)
 
 /* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
    every 127th between. Once served, it is served by every larger area. */
-static void starve(const starved *s)
+static void check_memory_limit(const memory_case *s)
 {
-    unsigned char *memory = malloc(s->need + STARVE_CANARY);
+    unsigned char *memory = malloc(s->need + MEMORY_CANARY);
     assert_non_null(memory);
     int served = 0;
     for (size_t size = 0; size <= s->need;) {
-        int status = starve_once(s, memory, size);
+        int status = memory_limit_at(s, memory, size);
         if (status != LRCS_OK && (served || size == s->need)) {
             fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
             fail();

@@ -2,8 +2,8 @@
 /* A slow ray caster over the true shapes of a recipe, sharing nothing with the library but its
    conventions: Eq. 2 by stratified samples of every surface, each with one ray to the laser. Of
    flat surfaces that coincide and face the same way, the first is seen. */
-#ifndef TEST_CASTER_H
-#define TEST_CASTER_H
+#ifndef TEST_RAY_CASTER_H
+#define TEST_RAY_CASTER_H
 
 #include <lrcs/scene.h>
 

@@ -6,10 +6,10 @@
 #include "build3ds.h"
 #include "curved.h"
 #include "integrate/cubature/cubature.h"
+#include "memory_limit.h"
 #include "scene/proximity.h"
 #include "scene/solid.h"
 #include "scenes.h"
-#include "starve.h"
 #include "visibility/proximity/proximity_band.h"
 
 static const char text[] =
@@ -97,7 +97,7 @@ static int call_polygons(lrcs_work *work)
 }
 
 /* A degraded answer says what would have served in full. Under auto a raster of curved facets may
-   starve where clipping, which takes less, does not. */
+   have too little where clipping has enough. */
 static int sigma_wanted(size_t wanted, size_t size)
 {
     int gives_up = options.method == LRCS_METHOD_AUTO && prepared->has_curved_normals;
@@ -130,12 +130,13 @@ static void readers_grow_until_they_fit(void **state)
     lrcs_mesh_counts counts;
     setup();
     assert_int_equal(lrcs_3ds_count(editor.bytes, editor.size, &counts, NULL), LRCS_OK);
-    starve(STARVED("3ds", lrcs_mesh_need(&counts), call_3ds, out.mesh, 1));
+    check_memory_limit(MEMORY_CASE("3ds", lrcs_mesh_need(&counts), call_3ds, out.mesh, 1));
     assert_int_equal(lrcs_obj_count(object, sizeof object - 1, &counts, NULL), LRCS_OK);
-    starve(STARVED("obj", lrcs_mesh_need(&counts), call_obj, out.mesh, 1));
+    check_memory_limit(MEMORY_CASE("obj", lrcs_mesh_need(&counts), call_obj, out.mesh, 1));
     assert_int_equal(lrcs_stl_count(solid, sizeof solid - 1, &counts, NULL), LRCS_OK);
-    starve(STARVED("stl", lrcs_mesh_need(&counts), call_stl, out.mesh, 1));
-    starve(STARVED("recipe", lrcs_recipe_need(sizeof text - 1), call_recipe, out.recipe, 1));
+    check_memory_limit(MEMORY_CASE("stl", lrcs_mesh_need(&counts), call_stl, out.mesh, 1));
+    check_memory_limit(
+        MEMORY_CASE("recipe", lrcs_recipe_need(sizeof text - 1), call_recipe, out.recipe, 1));
 }
 
 static void building_grows_until_it_fits(void **state)
@@ -143,21 +144,25 @@ static void building_grows_until_it_fits(void **state)
     (void)state;
     setup();
     const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two zones and a base, at most */
-    starve(STARVED("shape", lrcs_mesh_need(&dome), call_shape, out.mesh, 1));
-    starve(STARVED("check", lrcs_mesh_check_need(scene.vertex_count, scene.facet_count), call_check,
-                   out.report, 0));
-    starve(STARVED("scene", lrcs_scene_need(&recipe, NULL, &build), call_scene, out.scene, 1));
-    starve(STARVED("prepare", lrcs_prepare_need(&scene), call_prepare, out.prepared, 1));
+    check_memory_limit(MEMORY_CASE("shape", lrcs_mesh_need(&dome), call_shape, out.mesh, 1));
+    check_memory_limit(MEMORY_CASE("check",
+                                   lrcs_mesh_check_need(scene.vertex_count, scene.facet_count),
+                                   call_check, out.report, 0));
+    check_memory_limit(
+        MEMORY_CASE("scene", lrcs_scene_need(&recipe, NULL, &build), call_scene, out.scene, 1));
+    check_memory_limit(
+        MEMORY_CASE("prepare", lrcs_prepare_need(&scene), call_prepare, out.prepared, 1));
 }
 
-static void starve_methods(void)
+static void limit_methods(void)
 {
     for (int method = LRCS_METHOD_AUTO; method <= LRCS_METHOD_EXACT; method++) {
         options.method = method;
-        starved sigma = *STARVED(lrcs_method_text(method), lrcs_sigma_need(prepared, &options),
-                                 call_sigma, out.result, 0);
+        memory_case sigma =
+            *MEMORY_CASE(lrcs_method_text(method), lrcs_sigma_need(prepared, &options), call_sigma,
+                         out.result, 0);
         sigma.wanted = sigma_wanted;
-        starve(&sigma);
+        check_memory_limit(&sigma);
         assert_false(out.result.flags & LRCS_FLAG_MEMORY_FALLBACK); /* of the last, at _need */
     }
 }
@@ -166,8 +171,9 @@ static void a_pose_grows_until_it_fits(void **state)
 {
     (void)state;
     setup();
-    starve_methods();
-    starve(STARVED("polygons", lrcs_polygon_need(prepared), call_polygons, out.polygons, 1));
+    limit_methods();
+    check_memory_limit(
+        MEMORY_CASE("polygons", lrcs_polygon_need(prepared), call_polygons, out.polygons, 1));
 }
 
 /* The room for cells of the cubature among the rest. */
@@ -186,7 +192,7 @@ static void a_pose_over_curved_normals_grows_until_it_fits(void **state)
     options.tolerance = 1e-2;
     assert_int_equal(lrcs_prepare_run(&scene, &base, &prepared), LRCS_OK);
     assert_true(lrcs_sigma_need(prepared, &options) >= flat + lrcsi_cubature_need());
-    starve_methods();
+    limit_methods();
     assert_true(out.result.curvature_estimate_m2 > 0 && out.result.facets_partial > 0);
 }
 
@@ -211,8 +217,9 @@ static void building_with_normals_grows_until_it_fits(void **state)
     round_recipe = (lrcs_recipe){.part = &part, .part_count = 1};
     round_mesh = c.mesh;
     round_options = (lrcs_build_options){1e-2, 64, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
-    starve(STARVED("normals", lrcs_scene_need(&round_recipe, &round_mesh, &round_options),
-                   call_round, out.scene, 1));
+    check_memory_limit(MEMORY_CASE("normals",
+                                   lrcs_scene_need(&round_recipe, &round_mesh, &round_options),
+                                   call_round, out.scene, 1));
     assert_non_null(out.scene.corner_normal);
     curved_free(&c);
 }

@@ -2,8 +2,8 @@
 /* Random scenes of curved shapes among others, by families: anywhere, on a lattice, in contact,
    flush, nested with thin gaps, piercing, with a glint on a shadow's edge, scaled differently along
    the axes. And directions to look from that spare none of them. */
-#ifndef TEST_NASTY_H
-#define TEST_NASTY_H
+#ifndef TEST_SHAPE_SCENES_H
+#define TEST_SHAPE_SCENES_H
 
 #include <lrcs/lrcs.h>
 
@@ -11,38 +11,38 @@
 
 #include "random.h"
 
-#define NASTY_PARTS 5
-#define NASTY_PI    3.14159265358979323846
+#define SHAPE_SCENE_PARTS 5
+#define SHAPE_SCENE_PI    3.14159265358979323846
 
-enum nasty_family {
-    NASTY_ANYWHERE,
-    NASTY_LATTICE,
-    NASTY_RESTING,
-    NASTY_FLUSH,
-    NASTY_NESTED,
-    NASTY_PIERCED,
-    NASTY_GLINT,
-    NASTY_STRETCHED,
-    NASTY_FAMILIES
+enum shape_scene_family {
+    SHAPE_SCENE_ANYWHERE,
+    SHAPE_SCENE_LATTICE,
+    SHAPE_SCENE_RESTING,
+    SHAPE_SCENE_FLUSH,
+    SHAPE_SCENE_NESTED,
+    SHAPE_SCENE_PIERCED,
+    SHAPE_SCENE_GLINT,
+    SHAPE_SCENE_STRETCHED,
+    SHAPE_SCENE_FAMILIES
 };
 
-static const char *const nasty_name[NASTY_FAMILIES] = {
+static const char *const shape_scene_name[SHAPE_SCENE_FAMILIES] = {
     "anywhere", "lattice", "resting", "flush", "nested", "pierced", "glint on edge", "stretched"};
 
 /* `aim` is where a glint meets an edge, or the light runs along a wall. */
-typedef struct nasty_scene {
-    lrcs_recipe_part part[NASTY_PARTS];
+typedef struct shape_scene {
+    lrcs_recipe_part part[SHAPE_SCENE_PARTS];
     lrcs_recipe_material material[2];
     lrcs_recipe recipe;
     double aim[3];
     int family;
-} nasty_scene;
+} shape_scene;
 
-static uint64_t nasty_seed = 1;
+static uint64_t shape_scene_seed = 1;
 
 static uint32_t pick(uint32_t below)
 {
-    return random_below(&nasty_seed, below);
+    return random_below(&shape_scene_seed, below);
 }
 
 static double between(double low, double high)
@@ -94,7 +94,7 @@ static void turn_anyhow(lrcs_recipe_part *part)
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-static lrcs_recipe_part *put(nasty_scene *s, int kind, double a, double b, double c)
+static lrcs_recipe_part *put(shape_scene *s, int kind, double a, double b, double c)
 {
     lrcs_recipe_part *part = &s->part[s->recipe.part_count++];
     *part = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
@@ -129,7 +129,7 @@ static double gap(void)
     return any[pick(sizeof any / sizeof *any)];
 }
 
-static void fill_anyhow(nasty_scene *s, int lattice, double spread)
+static void fill_anyhow(shape_scene *s, int lattice, double spread)
 {
     uint32_t parts = 1 + pick(4);
     for (uint32_t i = 0; i < parts; i++) {
@@ -150,7 +150,7 @@ static void fill_anyhow(nasty_scene *s, int lattice, double spread)
 }
 
 /* What lies or stands on the plane z = 0, its place along x. */
-static void rest_one(nasty_scene *s, double x, double r)
+static void rest_one(shape_scene *s, double x, double r)
 {
     double length = length_of(0);
     double above = gap();
@@ -184,7 +184,7 @@ static void rest_one(nasty_scene *s, double x, double r)
     }
 }
 
-static void fill_resting(nasty_scene *s)
+static void fill_resting(shape_scene *s)
 {
     double r = length_of(1) * 0.5;
     switch (pick(3)) {
@@ -207,7 +207,7 @@ static void fill_resting(nasty_scene *s)
 }
 
 /* One upon the other, with rims that agree or not, either way up. */
-static void fill_flush(nasty_scene *s)
+static void fill_flush(shape_scene *s)
 {
     static const double share[] = {1, 1, 0.5, 1.5, 0.999};
     double z = 0;
@@ -234,7 +234,7 @@ static void fill_flush(nasty_scene *s)
 }
 
 /* About one axis, thin gaps between. */
-static void fill_nested(nasty_scene *s)
+static void fill_nested(shape_scene *s)
 {
     static const double thin[] = {0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-6};
     int kind = LRCS_SHAPE_SPHERE + (int)pick(LRCS_SHAPE_KINDS - LRCS_SHAPE_SPHERE);
@@ -257,10 +257,10 @@ static void fill_nested(nasty_scene *s)
 }
 
 /* The edge of a ball or a disc's shadow runs through the spot that glints at `aim`. */
-static void fill_glint(nasty_scene *s)
+static void fill_glint(shape_scene *s)
 {
     double r = between(0.1, 0.6);
-    double azimuth = between(0, 2 * NASTY_PI);
+    double azimuth = between(0, 2 * SHAPE_SCENE_PI);
     double height = between(-0.9, 0.9);
     double across = sqrt(1 - height * height);
     int ball = pick(2) != 0;
@@ -296,7 +296,7 @@ static int axis_of(const lrcs_recipe_part *part, int k)
 
 /* Scales what is there by another factor along each axis of the world, so that contacts stay; parts
    that are turned otherwise are scaled along their own axes. */
-static void stretch(nasty_scene *s)
+static void stretch(shape_scene *s)
 {
     static const double any[] = {1, 1, 0.5, 2, 0.1, 0.999, 1 + 1e-9};
     double factor[3];
@@ -313,7 +313,7 @@ static void stretch(nasty_scene *s)
     }
 }
 
-static void fill_stretched(nasty_scene *s)
+static void fill_stretched(shape_scene *s)
 {
     switch (pick(4)) {
     case 0:
@@ -333,10 +333,10 @@ static void fill_stretched(nasty_scene *s)
 
 /* --- scenes and directions -------------------------------------------------------------------- */
 
-static void nasty_dress(nasty_scene *s)
+static void shape_scene_dress(shape_scene *s)
 {
     static const double slope[] = {0.02, 0.05, 0.1, 0.15, 0.3, 0.8, 2};
-    int glint = s->family == NASTY_GLINT;
+    int glint = s->family == SHAPE_SCENE_GLINT;
     for (int i = 0; i < 2; i++) {
         lrcs_brdf brdf = {pick(3) || glint ? between(0, 1) : 0, pick(3) ? between(0, 1) : 0,
                           slope[pick(glint ? 3 : 7)], pick(2) ? 0 : between(0, pick(4) ? 5 : 50)};
@@ -346,35 +346,36 @@ static void nasty_dress(nasty_scene *s)
 }
 
 /* A scene of a family, some metres large. */
-static void nasty_make(nasty_scene *s, int family)
+static void shape_scene_make(shape_scene *s, int family)
 {
-    *s = (nasty_scene){.family = family, .aim = {1, 0, 0}};
+    *s = (shape_scene){.family = family, .aim = {1, 0, 0}};
     s->recipe = (lrcs_recipe){.part = s->part, .material = s->material, .material_count = 2};
     switch (family) {
-    case NASTY_RESTING:
+    case SHAPE_SCENE_RESTING:
         fill_resting(s);
         break;
-    case NASTY_FLUSH:
+    case SHAPE_SCENE_FLUSH:
         fill_flush(s);
         break;
-    case NASTY_NESTED:
+    case SHAPE_SCENE_NESTED:
         fill_nested(s);
         break;
-    case NASTY_GLINT:
+    case SHAPE_SCENE_GLINT:
         fill_glint(s);
         break;
-    case NASTY_STRETCHED:
+    case SHAPE_SCENE_STRETCHED:
         fill_stretched(s);
         break;
     default:
-        fill_anyhow(s, family == NASTY_LATTICE, family == NASTY_PIERCED ? 0.1 : 1);
+        fill_anyhow(s, family == SHAPE_SCENE_LATTICE, family == SHAPE_SCENE_PIERCED ? 0.1 : 1);
     }
-    nasty_dress(s);
+    shape_scene_dress(s);
 }
 
 /* The same scene `size` times as large, mirrored through the origin where size < 0, and moved:
    how it looks from -d where mirrored, else from d, does not change. */
-static void nasty_transform(const nasty_scene *from, double size, double offset, nasty_scene *s)
+static void shape_scene_transform(const shape_scene *from, double size, double offset,
+                                  shape_scene *s)
 {
     *s = *from;
     s->recipe.part = s->part;
@@ -388,10 +389,10 @@ static void nasty_transform(const nasty_scene *from, double size, double offset,
 }
 
 /* Along axes and diagonals, nearly so, along the first part's wall, at the aim, or anywhere. */
-static void nasty_direction(const nasty_scene *s, double d[3])
+static void shape_scene_direction(const shape_scene *s, double d[3])
 {
     static const double off[] = {0, 0, 1e-2, 1e-4, 1e-7, 1e-10, 1e-14};
-    uint32_t how = pick(s->family == NASTY_GLINT ? 3 : 5);
+    uint32_t how = pick(s->family == SHAPE_SCENE_GLINT ? 3 : 5);
     double slip = off[pick(7)];
     const lrcs_recipe_part *part = &s->part[pick(s->recipe.part_count)];
     double fall = part->shape.radius - part->shape.radius2;
