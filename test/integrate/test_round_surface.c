@@ -118,7 +118,7 @@ static void values_are_those_of_the_definition(void **state)
         lrcsi_round_point point;
         const lrcs_brdf brdf = {between(0, 1), between(0, 1), between(0.1, 1), between(0, 4)};
         lrcsi_view view = placed_view(kinds[i % 3], &scene);
-        lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0);
+        lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
         if (!some_point(&view, &s, &point)) {
             continue;
         }
@@ -144,7 +144,7 @@ static void the_bound_holds_at_complex_points(void **state)
         lrcsi_round_point point;
         const lrcs_brdf brdf = {i % 2, i % 4 < 2, between(0.1, 1), between(0, 4)};
         lrcsi_view view = placed_view(kinds[i % 3], &scene);
-        lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0);
+        lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
         if (!some_point(&view, &s, &point)) {
             continue;
         }
@@ -176,7 +176,7 @@ static void outside_the_outline_there_is_no_point(void **state)
     lrcs_scene scene;
     lrcsi_round_point point;
     lrcsi_view view = placed_view(LRCS_SHAPE_SPHERE, &scene);
-    lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0);
+    lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
     const double x[2] = {s.view[0] + 1.0001 * sqrt(-s.gamma), s.view[1]};
     assert_int_equal(lrcsi_round_point_make(&s, x, &point), 0);
     const double y[2] = {s.view[0] + 0.9999 * sqrt(-s.gamma), s.view[1]};

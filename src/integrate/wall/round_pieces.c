@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Integrates over visible pieces, and over margins at the borders of sets of sectors. Used are the
-   sectors of which a facet is partly visible, if the surface above their facets faces the laser
-   everywhere, and G is smooth enough for the rules there. */
+   sectors of which a facet is partly visible, if the same side of the surface above their facets
+   faces the laser everywhere, and G is smooth enough for the rules there. */
 #include "integrate/wall/round_pieces.h"
 
 #include <math.h>
@@ -13,6 +13,7 @@
 #include "integrate/wall/mean_rule.h"
 #include "integrate/wall/patch.h"
 #include "integrate/wall/patch_visibility.h"
+#include "integrate/wall/round_rim.h"
 #include "integrate/wall/round_sector.h"
 #include "optics/reflect.h"
 
@@ -213,7 +214,7 @@ static double facet_bound(const pieces_job *job, uint32_t facet)
         return HUGE_VAL;
     }
     for (int i = 0; i < 3; i++) {
-        const double z = job->view->point[corner[i]].x[2];
+        const double z = surface->side * job->view->point[corner[i]].x[2];
         lrcsi_round_point point;
         if (!lrcsi_round_point_make(surface, at[i], &point)) {
             return HUGE_VAL;
@@ -275,7 +276,8 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                                      bound * (area.high - area.low + area_err) * LRCSI_ROUND_UPWARD,
                                  .above = bound * lrcsi_max(0, gain) * LRCSI_ROUND_UPWARD,
                                  .below = bound * lrcsi_max(0, loss) * LRCSI_ROUND_UPWARD,
-                                 .own = sum.remainder};
+                                 .own = sum.remainder,
+                                 .most = bound * LRCSI_ROUND_UPWARD};
     return known;
 }
 
@@ -347,7 +349,8 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
         lrcsi_round_margin margin;
-        if (side->neighbour != LRCS_NONE && terms[side->neighbour].known) {
+        if (side->neighbour != LRCS_NONE && terms[side->neighbour].known &&
+            job->view->facing[side->neighbour] == job->view->facing[side->facet]) {
             continue;
         }
         int state = side_state(job, facets, side, meter);
@@ -377,17 +380,41 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
     return known;
 }
 
-/* Takes the wall that a facet is on. */
+/* Takes the side of a wall that a facet shows to the laser. */
 static void job_take_wall(pieces_job *job, uint32_t facet)
 {
     uint32_t part = job->view->prepared->scene->facet_part[facet];
-    if (!job->wall.view || job->wall.part != part) {
-        job->wall = lrcsi_round_wall_make(job->view, job->plan, part);
+    int side = job->view->facing[facet];
+    if (!job->wall.view || job->wall.part != part || job->wall.surface.side != side) {
+        job->wall = lrcsi_round_wall_make(job->view, job->plan, part, side);
+    }
+}
+
+/* The rims of open parts above their insides; where this is not possible, these are left out. */
+static void add_rims(pieces_job *job, lrcs_work *work, lrcsi_round_terms *terms)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        const uint32_t from = p->scene->part[i].first_facet;
+        const uint32_t to = from + p->scene->part[i].facet_count;
+        uint32_t first = from;
+        while (first < to && !(terms[first].known && job->view->facing[first] < 0)) {
+            first++;
+        }
+        if (first == to) {
+            continue;
+        }
+        job_take_wall(job, first);
+        int known = lrcsi_round_rim_add(&job->wall, job->band, job->visible, work, terms);
+        for (uint32_t f = first; f < to && !known; f++) {
+            terms[f].known &= job->view->facing[f] > 0;
+        }
     }
 }
 
 /* 1. Which sectors: all of whose integrals and margins are known; the integrals over their pieces.
-   2. The margins at the border of the set. */
+   2. The rims of open parts above their insides.
+   3. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
                              lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms)
@@ -425,7 +452,10 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
             terms[sector.facet[i]].known = known;
         }
     }
-    for (uint32_t f = 0; f < count && o; f++) { /* 2 */
+    if (o) {
+        add_rims(&job, work, terms); /* 2 */
+    }
+    for (uint32_t f = 0; f < count && o; f++) { /* 3 */
         if (terms[f].known) {
             job_take_wall(&job, f);
             if (lrcsi_round_sector_make(&job.wall, f, &sector) && sector.facet[0] == f) {

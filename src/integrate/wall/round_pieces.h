@@ -3,13 +3,14 @@
    surface above every point of the view plane: the facets decide only what is visible, and not how
    the surface reflects.
 
-   Let C be a set of sectors of one wall, f their facets, U their patches, and f' and U' the
+   Let C be a set of sectors of one side of a wall, the outside or the inside, f their facets, U their patches, and f' and U' the
    projections of these. Let G be what the true surface reflects per unit of projected area
    (integrate/wall/round_surface.h), w 1 where a facet is visible and 0 where it is not, and v the same
    for the true surface, both as functions on the view plane. The truth of C is T = Int_U' G v. Used
    is M = sum over f of Int_f' G w, and what is between U' and f' along the border of C.
    1. Within the facets of C, v and w differ only on the fractions gain_aligned and loss_aligned of
-      visibility/proximity/event_band.c, 5.
+      visibility/proximity/event_band.c, 5; and on the inside between the projected openings of the
+      true surface and of the facets (integrate/wall/round_rim.h).
    2. Inside C, every point of the view plane belongs to one facet and to one patch. At the border
       it may belong to one of both only. A side of a sector is a segment of f' and an arc of U'; the
       margin between them is swept by the segments from a point of one to the point of the other
@@ -25,18 +26,9 @@
 #define LRCSI_ROUND_PIECES_H
 
 #include "integrate/plan.h"
+#include "integrate/wall/round_terms.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity/proximity_band.h"
-
-/* What a facet of such a sector adds, scaled, without the factor 4 pi. */
-typedef struct lrcsi_round_terms {
-    int known;             /* 0: the facet is in no such sector */
-    double glint, diffuse; /* M */
-    double rounding;
-    double visibility;   /* bound on the error of its visible area */
-    double above, below; /* bounds on T - M and M - T that other parts cause */
-    double own;          /* bound on |T - M| that its own part causes */
-} lrcsi_round_terms;
 
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
    whose hidden regions are marked. Returned: terms[facet_count]. Without enough memory, or if steps

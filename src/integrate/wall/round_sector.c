@@ -22,14 +22,14 @@
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
 
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                                       uint32_t part)
+                                       uint32_t part, int side)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *placed = &p->scene->part[part];
     return (lrcsi_round_wall){
         .view = view,
         .part = part,
-        .surface = lrcsi_round_surface_make(view, part),
+        .surface = lrcsi_round_surface_make(view, part, side),
         .body = lrcsi_revolution_make(&placed->shape, &placed->divisions),
         .unit = ldexp(placed->unit, -p->exponent),
         .brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, placed->first_facet))};
@@ -103,36 +103,42 @@ typedef struct margin_part {
     lrcsi_round_point centre;
 } margin_part;
 
-/* Returns 0 if there is no point of the wall above the middle of its chord. */
-static int margin_part_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                            double middle, double half, margin_part *part)
+/* All of it but the centre. */
+static margin_part margin_part_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                                    double middle, double half)
 {
     const double turn = side->sign * half;
     double a[2];
     double da[2];
-    *part = (margin_part){.middle = middle, .half = half};
+    margin_part part = {.middle = middle, .half = half};
     for (int k = 0; k < 2; k++) {
-        part->chord[k] = side->chord[k] + middle * side->step[k];
-        part->step[k] = half * side->step[k];
+        part.chord[k] = side->chord[k] + middle * side->step[k];
+        part.step[k] = half * side->step[k];
     }
     side_arc(wall, side, side->sign * middle, a, da);
-    part->apart = lrcsi_length_flat(a[0] - part->chord[0], a[1] - part->chord[1]);
-    part->turned = lrcsi_length_flat(turn * da[0] - part->step[0], turn * da[1] - part->step[1]);
-    part->length = lrcsi_length_flat(part->step[0], part->step[1]);
-    return lrcsi_round_point_make(&wall->surface, part->chord, &part->centre);
+    part.apart = lrcsi_length_flat(a[0] - part.chord[0], a[1] - part.chord[1]);
+    part.turned = lrcsi_length_flat(turn * da[0] - part.step[0], turn * da[1] - part.step[1]);
+    part.length = lrcsi_length_flat(part.step[0], part.step[1]);
+    return part;
 }
 
-/* M for parameters up to r times as far from the middle, and up to `out` times as far from the
-   chord as the arc. *width, *slope: bounds on the distance between arc and chord, and on the
-   difference of their derivatives. */
-static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                           const margin_part *part, double r, double out, double *width,
-                           double *slope)
+/* Bounds on the distance between arc and chord, and on the difference of their derivatives, for
+   parameters up to r times as far from the middle. */
+static void margin_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                        const margin_part *part, double r, double *width, double *slope)
 {
     double bend = side_bend(wall, side, r * part->half, slope);
     *width =
         (part->apart + part->turned * r + bend) * LRCSI_ROUND_UPWARD + wall->surface.position_err;
     *slope = (part->turned + *slope * part->half) * LRCSI_ROUND_UPWARD;
+}
+
+/* M for such parameters, and up to `out` times as far from the chord as the arc; and the extent. */
+static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                           const margin_part *part, double r, double out, double *width,
+                           double *slope)
+{
+    margin_bend(wall, side, part, r, width, slope);
     return lrcsi_round_bound(&wall->surface, &wall->brdf, &part->centre,
                              r * part->length + out * *width);
 }
@@ -200,40 +206,56 @@ static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *sid
     }
 }
 
+/* The length times which the area of a margin has an error of position. The ends of the chord have
+   errors of vertex_err together, points of the arc less than position_err (which exceeds the errors
+   of their sines, cosines and products). So both borders are displaced by at most these, which
+   changes the area, and the size of the area elements, each by at most the length times twice their
+   sum; 8 is twice as much as these together. */
+static double margin_position_err(const lrcsi_round_wall *wall, const lrcsi_round_side *side)
+{
+    return 8 * (wall->surface.position_err +
+                lrcsi_view_point_err(wall->view->point[side->vertex[0]].x) +
+                lrcsi_view_point_err(wall->view->point[side->vertex[1]].x));
+}
+
+void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                               lrcsi_round_margin *margin)
+{
+    const margin_part all = margin_part_make(wall, side, 0, 1);
+    double slope;
+    *margin = (lrcsi_round_margin){.largest = 0};
+    margin_bend(wall, side, &all, 1, &margin->width, &slope);
+    margin->area = (all.length + slope) * LRCSI_ROUND_UPWARD *
+                   (2 * margin->width + margin_position_err(wall, side));
+}
+
 /* The margin is divided until the remainder is small compared with its size.
 
    Inclination. Where M is finite over a part, w = 1 / cos^2 is there at most 1.5 times its value at
-   the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59 and tan < 8.
-
-   Rounding. The ends of the chord have errors of vertex_err together, points of the arc less than
-   position_err (which exceeds the errors of their sines, cosines and products). So both borders are
-   displaced by at most these, which changes the area, and the size of the area elements, each by at
-   most the length times twice their sum; 8 is twice as much as these together. */
+   the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59 and tan < 8. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin)
 {
     const lrcsi_mean_rule *along = &lrcsi_mean_rules[LRCSI_MEAN_RULES - 2];
     const lrcsi_mean_rule *across = &lrcsi_mean_rules[1];
-    const double vertex_err = lrcsi_view_point_err(wall->view->point[side->vertex[0]].x) +
-                              lrcsi_view_point_err(wall->view->point[side->vertex[1]].x);
+    const double position_err = margin_position_err(wall, side);
     for (int n = 1; n <= MARGIN_PARTS_MAX; n *= 2) {
         lrcsi_round_sum *sum = &margin->sum;
-        *margin = (lrcsi_round_margin){.width = 0};
+        lrcsi_round_margin_extent(wall, side, margin);
         for (int i = 0; i < n && sum->remainder < HUGE_VAL; i++) {
             double width = 0;
             double slope = 0;
-            margin_part part;
-            if (!margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n, &part) ||
+            margin_part part = margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n);
+            if (!lrcsi_round_point_make(&wall->surface, part.chord, &part.centre) ||
                 !(part.centre.s >= MIN_COSINE * part.centre.length)) {
                 return 0;
             }
             double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
             double size = bound * (part.length + slope) * LRCSI_ROUND_UPWARD;
             margin->largest += 2 * size * width;
-            margin->width = lrcsi_max(margin->width, width);
             sum->remainder += margin_remainder(wall, side, &part, along->points, across->points);
             /* the positions of both borders */
-            sum->rounding += 8 * size * (wall->surface.position_err + vertex_err);
+            sum->rounding += size * position_err;
             if (sum->remainder < HUGE_VAL) {
                 margin_add(wall, side, &part, along, across, sum);
             }
@@ -261,7 +283,8 @@ static uint32_t corner_vertex(const lrcsi_round_wall *wall, const lrcsi_round_se
         uint32_t vertex = scene->facet[sector->facet[i / 3]].corner[i % 3];
         double distance = 0;
         for (int k = 0; k < 3; k++) {
-            double x = s->view[k] + lrcsi_vec3_dot(X, s->axis[k]) - wall->view->point[vertex].x[k];
+            double at = (k == 2 ? s->side : 1) * wall->view->point[vertex].x[k];
+            double x = s->view[k] + lrcsi_vec3_dot(X, s->axis[k]) - at;
             distance += x * x;
         }
         if (distance < least) {

@@ -8,7 +8,7 @@
 #include "integrate/wall/round_surface.h"
 #include "mesh/shape/revolution.h"
 
-/* The wall of a part in a view. */
+/* One side of the wall of a part, in a view. */
 typedef struct lrcsi_round_wall {
     const lrcsi_view *view;
     uint32_t part;
@@ -18,7 +18,7 @@ typedef struct lrcsi_round_wall {
     lrcs_brdf brdf;
 } lrcsi_round_wall;
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                                       uint32_t part);
+                                       uint32_t part, int side);
 
 /* Covers the roundings of sums of positive terms. */
 #define LRCSI_ROUND_UPWARD (1 + 1e-9)
@@ -60,13 +60,17 @@ int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
                             lrcsi_round_sector *sector);
 
 /* A margin: the integral of G over it, positive where the arc is outside the sector; a bound on the
-   size of that integral over any part of it; and a bound on its width. */
+   size of that integral over any part of it; and bounds on its width and area. */
 typedef struct lrcsi_round_margin {
     lrcsi_round_sum sum;
-    double largest, width;
+    double largest, width, area;
 } lrcsi_round_margin;
 
-/* Returns 0 if it is not known, or if the tangent of the true surface's inclination to the view
+/* Its width and area. */
+void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                               lrcsi_round_margin *margin);
+
+/* All of it. Returns 0 if only width and area are known, or if the tangent of the true surface's inclination to the view
    plane may exceed 8 above it. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin);

@@ -32,14 +32,14 @@ static void by_diagonal(const lrcsi_round_surface *surface, const double v[3], d
     out[2] = surface->alpha * v[2];
 }
 
-lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t index)
+lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t index, int side)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[index];
     const double unit = ldexp(part->unit, -p->exponent);
     const double radius = part->shape.radius * unit;
     const double height = lrcsi_closed_length(&part->shape) * unit;
-    lrcsi_round_surface s = {.part = part, .alpha = 1, .gamma = -radius * radius};
+    lrcsi_round_surface s = {.part = part, .alpha = 1, .gamma = -radius * radius, .side = side};
     if (part->kind == LRCS_SHAPE_PARABOLOID) {
         s.alpha = 0;
         s.beta = 0.5 * radius * (radius / height);
@@ -53,9 +53,10 @@ lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t in
     }
     for (int i = 0; i < 3; i++) {
         s.origin[i] = lrcsi_vec3_dot(part->axis[i], from);
-        s.view[i] = -lrcsi_vec3_dot(view->R[i], from);
+        const double sign = i == 2 ? s.side : 1;
+        s.view[i] = -sign * lrcsi_vec3_dot(view->R[i], from);
         for (int k = 0; k < 3; k++) {
-            s.axis[k][i] = lrcsi_vec3_dot(part->axis[i], view->R[k]);
+            s.axis[k][i] = (k == 2 ? s.side : 1) * lrcsi_vec3_dot(part->axis[i], view->R[k]);
         }
     }
     double d[3];

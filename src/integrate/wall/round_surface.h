@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The true wall of a round shape (a sphere, dome or paraboloid) as a function on the view plane:
    the point above (x, y), and G, what it reflects per unit of projected area, f_r cos(theta).
+   The inside of an open shape is the outside seen from the other side of the view plane: below, d
+   is then the direction away from the laser, and z of the view is negated.
 
    In the shape's frame the wall is part of the quadric
        Q(X) = X . D X + 2 beta z + gamma = 0,  D = diag(1, 1, alpha),
@@ -34,17 +36,18 @@
 typedef struct lrcsi_round_surface {
     const lrcs_part *part;
     double alpha, beta, gamma;
-    double axis[3][3];   /* the axes x, y, z of the view, in the shape's frame */
+    double side;         /* 1: the outside; -1: the inside */
+    double axis[3][3];   /* the view's axes x, y, and z times side, in the shape's frame */
     double origin[3];    /* that of the view, in the shape's frame */
-    double view[3];      /* the shape's origin, in the view */
+    double view[3];      /* the shape's origin, in the view; z times side */
     double a;            /* A */
     double in_plane;     /* |h| */
     double position_err; /* bound on the rounding error of a point's coordinates, but for the factor
                             1 / cos(theta) along d */
 } lrcsi_round_surface;
 
-/* For a part that is a round shape, placed without distortion. */
-lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t part);
+/* For a part that is a round shape, placed without distortion. side: 1 the outside, -1 the inside. */
+lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t part, int side);
 
 /* A point of the wall. */
 typedef struct lrcsi_round_point {
@@ -55,12 +58,12 @@ typedef struct lrcsi_round_point {
     double length; /* |g| */
 } lrcsi_round_point;
 
-/* The outer point of the quadric above a point of the view plane. Returns 0 if there is none that
-   faces the laser. */
+/* The point of the quadric above a point of the view plane at which g . d is positive. Returns 0 if
+   there is none. */
 int lrcsi_round_point_make(const lrcsi_round_surface *surface, const double x[2],
                            lrcsi_round_point *point);
 
-/* The height of a point along d, in view coordinates. */
+/* The height of a point along d: z of the view times side. */
 double lrcsi_round_height(const lrcsi_round_surface *surface, const lrcsi_round_point *point);
 
 /* Both terms of G above the point of the view plane that is v from a point of the wall, and a bound

@@ -65,8 +65,13 @@
    2 e_P from it in projection. Then all points of the true surface whose projections are within
    2 e_P of the side, and that are within 30 e_P of the facet, are visible, and so are the points of
    the facet there; or all of them are hidden. The proof is the same.
-   These fractions are of the facet's projected area. They are used for facets that face the laser
-   (integrate/wall/round_pieces.h). */
+   On the inside of an open part the part itself may hide points, by 3: x unless its projection lies
+   in the projected opening of W, and y unless it lies in that of S. These openings differ within
+   k_P of the rims in 3 only. The fractions of aligned points do not contain what they differ by
+   (integrate/wall/round_rim.h adds it), but a side is not free if such a rim is within k_P + 2 e_P
+   of it in projection.
+   These fractions are of the facet's projected area. They are used for facets on round walls of
+   which the laser may see the outside or the inside (integrate/wall/round_pieces.h). */
 #include "visibility/proximity/event_band.h"
 
 #include <math.h>
@@ -290,19 +295,26 @@ unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t ev
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
     const uint32_t *corner = p->scene->facet[facet].corner;
     const uint32_t own = facet_part(bands, facet);
-    const double slack = lrcsi_proximity_slack(p, own, bands->events.part[event]);
+    const uint32_t part = bands->events.part[event];
+    double slack = lrcsi_proximity_slack_aligned(p, part);
     unsigned sides = 0;
     double unproved;
-    if (bands->events.part[event] == own ||
-        lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
-                                   view->point[edge->high].x) ||
-        lrcsi_part_is_behind(&bands->orders, facet, bands->events.part[event], &unproved) ||
-        lrcsi_edge_rectangle_behind(view, facet, edge, LRCSI_PROXIMITY_NEAR * slack)) {
+    if (lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
+                                   view->point[edge->high].x)) {
         return 0;
     }
-    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
-        view, facet, edge,
-        lrcsi_proximity_slack_aligned(p, bands->events.part[event]) + 2 * p->proximity.reach[own]);
+    if (part == own) {
+        if (!search->inside || !rim_may_face(bands, event)) {
+            return 0;
+        }
+        slack = p->proximity.hausdorff[own] + LRCSI_PROXIMITY_ERR;
+    } else if (lrcsi_part_is_behind(&bands->orders, facet, part, &unproved) ||
+               lrcsi_edge_rectangle_behind(
+                   view, facet, edge, LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, own, part))) {
+        return 0;
+    }
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(view, facet, edge, slack + 2 * p->proximity.reach[own]);
     for (int k = 0; k < 3; k++) {
         if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
                                        view->point[corner[(k + 1) % 3]].x)) {

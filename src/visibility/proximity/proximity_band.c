@@ -181,17 +181,17 @@ static int add_events(band_job *job, uint32_t facet, lrcsi_facet_search *search)
 }
 
 /* Begins the fractions for the correspondence of points with the same projection, unless they
-   cannot be known. The facet must lie on a round wall and face the laser, and every other part
-   that is near it must be in front of its own part or behind it; what these proofs leave open is
+   cannot be known. The facet must lie on a round wall and show the laser a side that may be
+   visible, and every other part that is near it must be in front of its own part or behind it; what these proofs leave open is
    counted. */
-static int begin_aligned(band_job *job, uint32_t facet)
+static int begin_aligned(band_job *job, uint32_t facet, int inside)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t own = p->scene->facet_part[facet];
     const lrcsi_part_set near = p->proximity.near[facet];
     double open = 0;
     if (!lrcsi_proximity_on_round_wall(p, facet) || !p->scene->part[own].rigid ||
-        job->view->facing[facet] <= 0) {
+        !(job->view->facing[facet] > 0 || (inside && lrcsi_view_reflects(job->view, facet)))) {
         return 0;
     }
     for (uint32_t i = 0; i < p->scene->part_count && near != 0; i++) {
@@ -230,7 +230,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     if (!add_events(job, facet, &search)) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
-    if (begin_aligned(job, facet)) {
+    if (begin_aligned(job, facet, search.inside)) {
         search.aligned = 1;
         if (!add_events(job, facet, &search)) {
             job->band->gain_aligned[facet] = -1;

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* Finds which facets of the inside lie under which sides of the rim, and adds the margins. */
+#include "integrate/wall/round_rim.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/length.h"
+#include "base/range.h"
+#include "base/vec3.h"
+#include "base/work.h"
+#include "mesh/shape/tessellate.h"
+#include "scene/proximity.h"
+
+/* More than the rounding error of angles and of a facet's cosine. */
+#define ANGLE_ERR 1e-9
+
+/* A side of the rim, and what is under it of the inside. */
+typedef struct rim_side {
+    uint32_t facet; /* one that is in C, if possible one of which something is visible; LRCS_NONE:
+                       there is none */
+    int lit;        /* something of that facet is visible */
+    int certain;    /* all facets are in C, and no other part's shadow ends on them */
+    double most;    /* bound on G above those in C */
+} rim_side;
+
+typedef struct rim_job {
+    const lrcsi_round_wall *wall;
+    const lrcsi_proximity_band *band;
+    const lrcsi_visible_area *visible;
+    const lrcs_part *part;
+    rim_side *side; /* of each sector */
+} rim_job;
+
+/* Does a facet belong to the inside, near enough to the rim in projection? */
+static int is_under_rim(const rim_job *job, uint32_t facet)
+{
+    const lrcsi_view *view = job->wall->view;
+    return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
+           (job->band->parts[facet] & lrcsi_part_set_of(job->wall->part)) != 0;
+}
+
+/* The sectors whose sides of the rim, or their margins, may lie above a facet: *first and those
+   that follow it; returned: how many. The projection takes the plane of the rim onto the view plane
+   and makes no distance there smaller than |d . axis| times itself. So a point of the rim within r
+   of the facet's middle in projection is within r / |d . axis| of the middle's preimage. With the
+   preimage at the distance rho from the axis, that leaves an angle D of 2 sqrt(R rho) sin(D / 2) <=
+   that on either side, and asin x <= pi x / 2. */
+static uint32_t sectors_above(const rim_job *job, uint32_t facet, uint32_t *first)
+{
+    const lrcsi_view *view = job->wall->view;
+    const lrcsi_round_surface *s = &job->wall->surface;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const uint32_t around = job->part->divisions.around;
+    const double radius = sqrt(-s->gamma);
+    const double det = s->axis[0][0] * s->axis[1][1] - s->axis[0][1] * s->axis[1][0];
+    double x[2] = {-s->view[0], -s->view[1]};
+    double near = 0;
+    *first = 0;
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < 3; i++) {
+            x[k] += view->point[corner[i]].x[k] / 3;
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        const double *at = view->point[corner[i]].x;
+        near = lrcsi_max(
+            near, lrcsi_length_flat(at[0] - (x[0] + s->view[0]), at[1] - (x[1] + s->view[1])));
+    }
+    near =
+        (near + 2 * view->prepared->proximity.reach[job->wall->part]) * (1 + ANGLE_ERR) / fabs(det);
+    double a = (x[0] * s->axis[1][1] - x[1] * s->axis[0][1]) / det;
+    double b = (x[1] * s->axis[0][0] - x[0] * s->axis[1][0]) / det;
+    double rho = lrcsi_length_flat(a, b);
+    double range = 0.5 * LRCS_PI * near / sqrt(radius * rho) + ANGLE_ERR;
+    if (fabs(rho - radius) > near + ANGLE_ERR * radius) {
+        return 0;
+    }
+    if (!(range < 0.5 * LRCS_PI)) {
+        return around;
+    }
+    double low = floor((atan2(b, a) + 2 * LRCS_PI - range) / (2 * job->wall->body.half));
+    double high = floor((atan2(b, a) + 2 * LRCS_PI + range) / (2 * job->wall->body.half));
+    *first = (uint32_t)low % around;
+    return (uint32_t)lrcsi_min(high - low + 1, around);
+}
+
+/* The sector at the rim of which a facet is the first: its number, and its sides, of which the first
+   lies on the rim. Returns 0 if there is none. */
+static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *sector,
+                      uint32_t *number)
+{
+    lrcsi_wall_patch at;
+    int found = lrcsi_tessellate_patch(&job->part->shape, &job->part->divisions,
+                                       facet - job->part->first_facet, &at) &&
+                at.row == 0 && lrcsi_round_sector_make(job->wall, facet, sector) &&
+                sector->facet[0] == facet;
+    *number = at.sector;
+    return found;
+}
+
+/* Enters a facet under the sides that may lie above it. */
+static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32_t facet)
+{
+    const lrcsi_part_set others = job->band->parts[facet] & ~lrcsi_part_set_of(job->wall->part);
+    uint32_t first;
+    uint32_t count = sectors_above(job, facet, &first);
+    for (uint32_t i = 0; i < count; i++) {
+        rim_side *side = &job->side[(first + i) % job->part->divisions.around];
+        side->certain &= terms[facet].known && others == 0;
+        if (terms[facet].known) {
+            side->facet = side->lit ? side->facet : facet;
+            side->lit |= job->visible[facet].high > 0;
+            side->most = lrcsi_max(side->most, terms[facet].most);
+        }
+    }
+}
+
+/* Adds the margin of a side of the rim, or what it is at most, to a facet under it. */
+static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const rim_side *side,
+                           lrcsi_round_terms *terms)
+{
+    const lrcsi_view *view = job->wall->view;
+    const lrcsi_normal *n = &view->prepared->normal[at->facet];
+    const double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
+    const int away = view->facing[at->facet] <= 0;
+    lrcsi_round_margin margin;
+    if (side->facet == LRCS_NONE ||
+        (away && cosine < -(job->part->bounds.patch.turn + ANGLE_ERR))) {
+        return;
+    }
+    lrcsi_round_terms *to = &terms[side->facet];
+    if (lrcsi_round_margin_make(job->wall, at, &margin) && !away && side->certain && side->lit) {
+        to->glint -= margin.sum.glint;
+        to->diffuse -= margin.sum.diffuse;
+        to->rounding += margin.sum.rounding;
+        to->own += margin.sum.remainder;
+    } else {
+        to->own += side->most * margin.area * LRCSI_ROUND_UPWARD;
+    }
+}
+
+/* 1. No margin is wider than two reaches of the part. Then all facets under it meet a band of their
+   own part (visibility/proximity/event_band.c, 3).
+   2. Which facets are under which sides.
+   3. The margins of the sides. */
+int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
+                        const lrcsi_visible_area *visible, lrcs_work *work,
+                        lrcsi_round_terms *terms)
+{
+    const lrcs_prepared *p = inside->view->prepared;
+    const lrcs_part *part = &p->scene->part[inside->part];
+    const size_t mark = work->used;
+    const uint32_t from = part->first_facet;
+    const uint32_t to = from + part->facet_count;
+    const rim_job job = {inside, band, visible, part,
+                         lrcsi_work_take(work, part->divisions.around, sizeof(rim_side))};
+    lrcsi_round_sector sector;
+    uint32_t number;
+    int known = job.side != NULL;
+    for (uint32_t f = from; f < to && known; f++) { /* 1 */
+        if (rim_sector(&job, f, &sector, &number)) {
+            lrcsi_round_margin margin;
+            lrcsi_round_margin_extent(inside, &sector.side[0], &margin);
+            known = margin.width <= 2 * p->proximity.reach[inside->part];
+            job.side[number] = (rim_side){.facet = LRCS_NONE, .certain = 1};
+        }
+    }
+    for (uint32_t f = from; f < to && known; f++) { /* 2 */
+        if (is_under_rim(&job, f)) {
+            rim_enter(&job, terms, f);
+        }
+    }
+    for (uint32_t f = from; f < to && known; f++) { /* 3 */
+        if (rim_sector(&job, f, &sector, &number)) {
+            rim_add_margin(&job, &sector.side[0], &job.side[number], terms);
+        }
+    }
+    work->used = mark;
+    return known;
+}

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/* Open round shapes that reflect on both sides, seen so that the near rim hides a part of the
+   inside. Truth: the inside is an integral over the disc of the opening, from each point of which a
+   line leads to the wall; the outside is an integral over the wall. Nothing else hides anything. */
+#include <lrcs/lrcs.h>
+
+#include "check.h"
+#include "recipe.h"
+
+#define PI     3.14159265358979323846
+#define RADIUS 0.75
+
+static double reflect(const lrcs_brdf *b, double cosine)
+{
+    double tan2 = (1 - cosine) * (1 + cosine) / (cosine * cosine);
+    double glint = b->A / (cosine * cosine * cosine * cosine) * exp(-tan2 / (b->s * b->s));
+    return glint + b->B * pow(cosine, b->m + 2); /* f_r cos^2 */
+}
+
+/* Half the gradient at a point of the wall: of the sphere, or of the paraboloid z = H (1 - rho^2 /
+   R^2). */
+static void gradient(double height, const double x[3], double g[3])
+{
+    g[0] = x[0];
+    g[1] = x[1];
+    g[2] = height > 0 ? RADIUS * RADIUS / (2 * height) : x[2];
+}
+
+/* The distance from a point of the opening to the wall, against the direction d. */
+static double depth(double height, const double x[3], const double d[3])
+{
+    double b = x[0] * d[0] + x[1] * d[1];
+    double c = x[0] * x[0] + x[1] * x[1] - RADIUS * RADIUS;
+    double a = 1;
+    if (height > 0) { /* rho^2 + (R^2 / H) z - R^2 = 0 */
+        a = d[0] * d[0] + d[1] * d[1];
+        b += RADIUS * RADIUS / (2 * height) * d[2];
+    }
+    return (b + sqrt(b * b - a * c)) / a; /* of a t^2 - 2 b t + c = 0, the positive one */
+}
+
+/* The integral of f_r cos over the projected opening: Gauss's rule of two points in the radius,
+   the midpoint rule around. */
+static double inside(const lrcs_brdf *brdf, double height, const double d[3])
+{
+    const int n = 250;
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        for (int half = -1; half <= 1; half += 2) {
+            double t = (i + 0.5 + half * 0.5 * 0.57735026918962576451) / n;
+            double rho = RADIUS * t * (2 - t); /* closer at the rim, where G may have a root */
+            double ring = 0;
+            for (int k = 0; k < n; k++) {
+                double phi = 2 * PI * (k + 0.5) / n;
+                double x[3] = {rho * cos(phi), rho * sin(phi), 0};
+                double g[3];
+                double t_wall = depth(height, x, d);
+                for (int j = 0; j < 3; j++) {
+                    x[j] -= t_wall * d[j];
+                }
+                gradient(height, x, g);
+                double cosine = -(g[0] * d[0] + g[1] * d[1] + g[2] * d[2]) /
+                                sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+                ring += reflect(brdf, cosine) / cosine;
+            }
+            sum += ring * (2 * PI / n) * rho * (RADIUS * (2 - 2 * t)) * 0.5 / n;
+        }
+    }
+    return -d[2] * sum;
+}
+
+/* The integral of f_r cos^2 over the points of the outside that face the laser: the same rules in
+   the radius or the height, and around. */
+static double outside(const lrcs_brdf *brdf, double height, const double d[3])
+{
+    const int n = 800;
+    double sum = 0;
+    for (int i = 0; i < 2 * n; i++) {
+        double t = (i / 2 + 0.5 + (i % 2 ? 0.5 : -0.5) * 0.57735026918962576451) / n;
+        double rho = height > 0 ? RADIUS * t : RADIUS * sqrt((1 - t) * (1 + t));
+        double area = height > 0 ? RADIUS * rho * hypot(1, 2 * height * rho / (RADIUS * RADIUS))
+                                 : RADIUS * RADIUS;
+        for (int k = 0; k < n; k++) {
+            double phi = 2 * PI * (k + 0.5) / n;
+            const double x[3] = {rho * cos(phi), rho * sin(phi), RADIUS * t};
+            double g[3];
+            gradient(height, x, g);
+            double cosine = (g[0] * d[0] + g[1] * d[1] + g[2] * d[2]) /
+                            sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+            sum += cosine > 0 ? reflect(brdf, cosine) * area : 0;
+        }
+    }
+    return sum * (2 * PI / n) * 0.5 / n;
+}
+
+/* The shape, and a box so far to the side that it hides nothing. */
+static lrcs_result bowl(double height, const double d[3], const lrcs_brdf *brdf, uint32_t facets)
+{
+    lrcs_recipe_part part[2];
+    lrcs_recipe_material material[2] = {{.name = "skin", .brdf = *brdf, .two_sided = 1},
+                                        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    for (int i = 0; i < 2; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = material[i].name;
+        part[i].material_index = i;
+    }
+    part[0].shape = (lrcs_shape){.kind = height > 0 ? LRCS_SHAPE_PARABOLOID : LRCS_SHAPE_DOME,
+                                 .radius = RADIUS,
+                                 .length = height,
+                                 .parts = LRCS_SHAPE_WALL};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
+    part[1].place.translate[1] = 8;
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 2, .material = material, .material_count = 2};
+    const lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = LRCS_METHOD_EXACT;
+    run.tolerance = 1e-9;
+    return recipe_run(&recipe, &build, &run, d);
+}
+
+/* The glint of the last one is dark where the wall is seen at grazing incidence: at both ends of the
+   near rim, that is. */
+static const lrcs_brdf brdfs[3] = {{1, 0.25, 0.3, 0.5}, {0, 1, 1, 0}, {1, 0, 0.3, 0}};
+
+/* height: 0 for a dome. bright, dark: the largest bounds relative to sigma, of the last BRDF and of
+   the others, with 2,000 and with 8,000 facets. */
+typedef struct bowl_case {
+    double height, tilt, bright[2], dark[2];
+} bowl_case;
+
+static void check_bowls(const bowl_case *cases, int count)
+{
+    for (int i = 0; i < 3 * count; i++) {
+        const bowl_case *at = &cases[i / 3];
+        const lrcs_brdf *brdf = &brdfs[i % 3];
+        const double d[3] = {sin(at->tilt * PI / 180), 0, -cos(at->tilt * PI / 180)};
+        double truth = 4 * PI * (inside(brdf, at->height, d) + outside(brdf, at->height, d));
+        for (int fine = 0; fine < 2; fine++) {
+            lrcs_result r = bowl(at->height, d, brdf, fine ? 8000 : 2000);
+            assert_int_equal(r.method, LRCS_METHOD_EXACT);
+            check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-9 * truth);
+            if (i % 3 == 2 && fine) { /* more than that: the margins have the right sign */
+                check_abs(r.sigma_m2, truth, 3e-9 * truth);
+            }
+            check_most(r.bound_m2, (i % 3 == 2 ? at->dark : at->bright)[fine] * truth);
+        }
+    }
+}
+
+/* Up to 51 degrees nothing is hidden. */
+static void a_paraboloid_seen_into(void **state)
+{
+    (void)state;
+    static const bowl_case cases[3] = {{0.3, 30, {2e-8, 2e-8}, {2e-8, 2e-8}},
+                                       {0.3, 60, {4e-3, 1e-3}, {4e-8, 2e-8}},
+                                       {0.3, 75, {1e-2, 2e-3}, {1e-6, 4e-8}}};
+    check_bowls(cases, 3);
+}
+
+static void a_dome_seen_into(void **state)
+{
+    (void)state;
+    static const bowl_case cases[3] = {{0, 25, {1e-2, 1e-3}, {4e-8, 2e-8}},
+                                       {0, 50, {1e-2, 1e-3}, {2e-4, 4e-8}},
+                                       {0, 75, {4e-2, 4e-3}, {2e-2, 2e-5}}};
+    check_bowls(cases, 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_paraboloid_seen_into),
+        cmocka_unit_test(a_dome_seen_into),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
