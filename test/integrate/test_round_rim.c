@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Open round shapes that reflect on both sides, seen so that the near rim hides a part of the
    inside. Truth: the inside is an integral over the disc of the opening, from each point of which a
-   line leads to the wall; the outside is an integral over the wall. Nothing else hides anything. */
+   line leads to the wall; the outside is an integral over the wall. Nothing else hides anything.
+   With two arguments, so many random bowls with other parts in and around them, from a seed:
+   coarse and fine meshes must agree within their bounds. */
 #include <lrcs/lrcs.h>
 
+#include <stdlib.h>
+
 #include "check.h"
+#include "random.h"
 #include "recipe.h"
 
 #define PI     3.14159265358979323846
@@ -167,11 +172,115 @@ static void a_dome_seen_into(void **state)
     check_bowls(cases, 3);
 }
 
-int main(void)
+static void place_at(lrcs_recipe_part *part, double x, double y, double z)
 {
+    part->place.translate[0] = x;
+    part->place.translate[1] = y;
+    part->place.translate[2] = z;
+}
+
+/* A bowl, and up to three other parts: a feed before the opening, a mast through the wall, a box
+   about the rim, a plate beside. */
+static lrcs_result crowded(uint64_t seed, uint32_t facets)
+{
+    lrcs_recipe_part part[4];
+    lrcs_recipe_material material[2] = {
+        {.name = "skin", .two_sided = 1},
+        {.name = "other", .brdf = {0.2, 0.1, 0.5, 1}, .two_sided = 0}};
+    uint64_t state = seed;
+    const uint32_t count = 2 + (uint32_t)(3 * random_unit(&state));
+    const double height = random_unit(&state) < 0.3 ? 0 : 0.1 + 0.5 * random_unit(&state);
+    const double tilt = (5 + 80 * random_unit(&state)) * PI / 180;
+    const double turn = 2 * PI * random_unit(&state);
+    const double d[3] = {sin(tilt) * cos(turn), sin(tilt) * sin(turn), -cos(tilt)};
+    material[0].brdf = brdfs[(int)(3 * random_unit(&state))];
+    for (uint32_t i = 0; i < count; i++) {
+        const double where = 2 * PI * random_unit(&state);
+        const double out = RADIUS * random_unit(&state);
+        const double x = out * cos(where);
+        const double y = out * sin(where);
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = material[i > 0].name;
+        part[i].material_index = i > 0;
+        switch (i == 0 ? 0 : 1 + (int)(4 * random_unit(&state))) {
+        case 0:
+            part[i].shape =
+                (lrcs_shape){.kind = height > 0 ? LRCS_SHAPE_PARABOLOID : LRCS_SHAPE_DOME,
+                             .radius = RADIUS,
+                             .length = height,
+                             .parts = LRCS_SHAPE_WALL};
+            break;
+        case 1: /* feed */
+            part[i].shape =
+                (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.05 + 0.2 * random_unit(&state)};
+            place_at(&part[i], 0.3 * x, 0.3 * y, -0.1 - 0.6 * random_unit(&state));
+            break;
+        case 2: /* mast */
+            part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER,
+                                         .radius = 0.02 + 0.1 * random_unit(&state),
+                                         .length = 2};
+            place_at(&part[i], x, y, -1.5 * random_unit(&state));
+            break;
+        case 3: /* box */
+            part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {0.3, 0.2, 0.4}};
+            place_at(&part[i], x * 1.2, y * 1.2, -random_unit(&state));
+            break;
+        default:
+            part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_CONE, .radius = 0.2, .length = 0.5};
+            place_at(&part[i], 2 * x, 2 * y, -0.2 - random_unit(&state));
+        }
+    }
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = count, .material = material, .material_count = 2};
+    const lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = LRCS_METHOD_EXACT;
+    run.tolerance = 1e-9;
+    return recipe_run(&recipe, &build, &run, d);
+}
+
+/* Returns how many are beyond the sum of their bounds. */
+static int crowded_check(int count, uint64_t seed, double *ratio)
+{
+    int beyond = 0;
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        const uint64_t scene = seed + (uint64_t)i;
+        const lrcs_result coarse = crowded(scene, 1500);
+        const lrcs_result fine = crowded(scene, 16000);
+        const double apart = fabs(coarse.sigma_m2 - fine.sigma_m2);
+        sum += coarse.bound_m2 > 0 ? fine.bound_m2 / coarse.bound_m2 : 0;
+        if (!(apart <= coarse.bound_m2 + fine.bound_m2)) {
+            printf("scene %llu: %.17g +- %g, %.17g +- %g\n", (unsigned long long)scene,
+                   coarse.sigma_m2, coarse.bound_m2, fine.sigma_m2, fine.bound_m2);
+            beyond++;
+        }
+    }
+    *ratio = sum / count;
+    return beyond;
+}
+
+static void bowls_with_other_parts(void **state)
+{
+    (void)state;
+    double ratio;
+    assert_int_equal(crowded_check(4, 1, &ratio), 0);
+    check_most(ratio, 0.2); /* of the bounds of fine and coarse meshes */
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3) {
+        double ratio;
+        int beyond = crowded_check(atoi(argv[1]), strtoull(argv[2], NULL, 10), &ratio);
+        printf("%s scenes: %d beyond their bounds; bounds of fine to coarse meshes: %.3g\n",
+               argv[1], beyond, ratio);
+        return beyond != 0;
+    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_paraboloid_seen_into),
         cmocka_unit_test(a_dome_seen_into),
+        cmocka_unit_test(bowls_with_other_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
