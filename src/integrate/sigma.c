@@ -99,7 +99,7 @@ static int run_is_unshadowed(const lrcsi_sigma *run)
 }
 
 /* Takes memory for the results of facets, as far as the plan's method needs it. */
-static int run_take(lrcsi_sigma *run)
+static int run_allocate(lrcsi_sigma *run)
 {
     const lrcs_prepared *p = run->view.prepared;
     uint32_t facets = p->scene->facet_count;
@@ -169,7 +169,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     }
     run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
     run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
-    status = run_take(run);
+    status = run_allocate(run);
     /* 2. Without a search for shadows: the sum over the areas that the plan implies. */
     if (status != LRCS_OK || run_is_unshadowed(run)) {
         if (status == LRCS_OK && request->last == LRCSI_SIGMA_SUM) {
@@ -190,18 +190,18 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     return run_attempts(run);
 }
 
-double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
-                               lrcs_work *work, int *status)
+int lrcsi_sigma_request_make(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                             lrcs_work *work, lrcsi_sigma_request *request)
 {
-    double *part_error = NULL;
-    if (*status == LRCS_OK && options->part_error_m2) {
-        part_error = lrcsi_work_take(work, prepared->scene->part_count, sizeof *part_error);
-        *status = part_error ? LRCS_OK : LRCS_E_MEMORY;
+    *request = (lrcsi_sigma_request){.options = options, .last = LRCSI_SIGMA_SUM};
+    if (options->part_error_m2) {
+        request->part_error =
+            lrcsi_work_take(work, prepared->scene->part_count, sizeof *request->part_error);
     }
-    return part_error;
+    return request->part_error || !options->part_error_m2 ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-void lrcsi_sigma_part_error_give(const lrcsi_sigma *run)
+void lrcsi_sigma_part_error_copy(const lrcsi_sigma *run)
 {
     if (run->request.part_error) {
         memcpy(run->request.options->part_error_m2, run->request.part_error,
@@ -247,8 +247,8 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
     return LRCS_OK;
 }
 
-int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                      const lrcs_run_options *options, int last, lrcs_work *work)
+int lrcsi_sigma_run_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                          const lrcs_run_options *options, int last, lrcs_work *work)
 {
     lrcs_run_options asked = *options;
     if (options->method == LRCS_METHOD_CLOSED) { /* only auto chooses it, and then runs once */
@@ -296,8 +296,8 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     size_t mark = work->used;
     lrcs_result answer;
     lrcsi_sigma run;
-    lrcsi_sigma_request request = {.options = options, .last = LRCSI_SIGMA_SUM};
-    request.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
+    lrcsi_sigma_request request;
+    status = lrcsi_sigma_request_make(prepared, options, work, &request);
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     if (status == LRCS_OK && image && image->size != 0) {
@@ -307,7 +307,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         if (records) {
             (void)lrcsi_sigma_total(&run, records); /* the same total again */
         }
-        lrcsi_sigma_part_error_give(&run);
+        lrcsi_sigma_part_error_copy(&run);
         *result = answer;
     }
     work->used = mark;

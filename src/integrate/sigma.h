@@ -14,13 +14,13 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image);
 int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *prepared,
                        const lrcs_pose *pose, lrcs_work *work, lrcsi_sigma *run);
 
-/* Memory for part_error, or NULL if the options do not ask for it. *status: LRCS_E_MEMORY if there
-   is none; else unchanged. */
-double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
-                               lrcs_work *work, int *status);
+/* A request for all stages, with memory for part_error if the options ask for it. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
+int lrcsi_sigma_request_make(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                             lrcs_work *work, lrcsi_sigma_request *request);
 
-/* Writes the errors of parts where the options ask for them: for runs that succeed. */
-void lrcsi_sigma_part_error_give(const lrcsi_sigma *run);
+/* Copies the errors of parts to where the options ask for them: once nothing can fail any more. */
+void lrcsi_sigma_part_error_copy(const lrcsi_sigma *run);
 
 /* The result after the last stage. Status: LRCS_OK; LRCS_E_NUMBER if sigma or its bound is not
    finite. */
@@ -28,7 +28,7 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result);
 
 /* Runs a pose up to a stage and discards the results. Status: as lrcs_sigma_run; LRCS_E_ARGUMENT
    for method AUTO, which may run stages more than once. */
-int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                      const lrcs_run_options *options, int last, lrcs_work *work);
+int lrcsi_sigma_run_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                          const lrcs_run_options *options, int last, lrcs_work *work);
 
 #endif

@@ -389,7 +389,8 @@ static void a_run_ends_after_the_stage_that_is_asked_for(void **state)
         size_t taken[LRCSI_SIGMA_STAGES];
         for (int last = 0; last < LRCSI_SIGMA_STAGES; last++) {
             work.peak = used;
-            assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, last, &work), LRCS_OK);
+            assert_int_equal(lrcsi_sigma_run_until(prepared, &pose, &options, last, &work),
+                             LRCS_OK);
             assert_int_equal(work.used, used);
             taken[last] = work.peak - used;
             assert_true(last == 0 || taken[last] >= taken[last - 1]);
@@ -405,17 +406,18 @@ static void a_run_ends_after_the_stage_that_is_asked_for(void **state)
         }
         options.steps = 1; /* a limit of steps ends no stage with an error */
         assert_int_equal(
-            lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_VISIBILITY, &work), LRCS_OK);
+            lrcsi_sigma_run_until(prepared, &pose, &options, LRCSI_SIGMA_VISIBILITY, &work),
+            LRCS_OK);
         options.tolerance = -1;
-        assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
+        assert_int_equal(lrcsi_sigma_run_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
                          LRCS_E_ARGUMENT);
     }
     lrcs_run_options options = lrcs_run_options_default();
-    assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
+    assert_int_equal(lrcsi_sigma_run_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
                      LRCS_E_ARGUMENT);
     options.method = LRCS_METHOD_EXACT;
     work.size = work.used;
-    assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_VIEW, &work),
+    assert_int_equal(lrcsi_sigma_run_until(prepared, &pose, &options, LRCSI_SIGMA_VIEW, &work),
                      LRCS_E_MEMORY);
 }
 

@@ -476,7 +476,7 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     uint32_t materials = scene->material_count;
     lrcs_result answer;
     lrcs_uncertainty estimate;
-    lrcsi_sigma_request request = {.options = options, .last = LRCSI_SIGMA_SUM};
+    lrcsi_sigma_request request;
     lrcsi_sigma run;
     int status = uncertainty_check(scene, options, how);
     if (status != LRCS_OK) {
@@ -491,7 +491,7 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         work->used = mark;
         return LRCS_E_MEMORY;
     }
-    request.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
+    status = lrcsi_sigma_request_make(prepared, options, work, &request);
     size_t start = work->used;
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
@@ -524,7 +524,7 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         for (uint32_t i = 0; i < materials; i++) {
             sensitivity[i] = sensitivity_of(&scene->material[i].brdf, &own[i]);
         }
-        lrcsi_sigma_part_error_give(&run);
+        lrcsi_sigma_part_error_copy(&run);
         *result = answer;
         *uncertainty = estimate;
     }
