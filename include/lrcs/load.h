@@ -131,8 +131,8 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
    curved shapes' facets, the parts that cause most of the tessellation bound are divided more
    finely, and the scene is prepared again: with it the pose is likely to meet the tolerance.
    Given: the options of the run, and what it returned: result; part_error_m2[part_count], as in the
-   options (NULL: all curved parts are divided alike). Returned: 1 if so, and build->halvings, which lasts as long as
-   the scene; else 0, also if the shapes cannot be divided any finer. */
+   options (NULL: all curved parts are divided alike). Returned: 1 if so, and build->halvings, which
+   lasts as long as the scene; else 0, also if the shapes cannot be divided any finer. */
 int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
                            const lrcs_result *result, const double *part_error_m2,
                            lrcs_build_options *build);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The stages of one pose. They are called by lrcs_sigma_run, by computations that need intermediate
-   results (integrate/derivative/uncertainty.c), and by hosts that time them, because the core has no clock. */
+   results (integrate/derivative/uncertainty.c), and by hosts that time them, because the core has
+   no clock. */
 #ifndef LRCSI_SIGMA_H
 #define LRCSI_SIGMA_H
 

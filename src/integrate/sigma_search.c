@@ -51,8 +51,8 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
     return status;
 }
 
-/* Clips within the limit of an attempt. What an abandoned or refused attempt leaves in the work area
-   is released by lrcsi_sigma_search_end, except a classification that is complete. */
+/* Clips within the limit of an attempt. What an abandoned or refused attempt leaves in the work
+   area is released by lrcsi_sigma_search_end, except a classification that is complete. */
 static void find_by_limited_clipping(lrcsi_sigma *run, lrcsi_attempt *attempt)
 {
     const int classified = run->classified;

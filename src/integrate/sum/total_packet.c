@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over the facets of one material, in packets of LRCSI_LANES, in plain doubles
    (optics/shade.h). select_facets selects the facets that face the laser (lrcsi_view_dot),
-   divide_facets those of them that are visible and flat, and add_packet evaluates these. Facets that
-   cannot be evaluated in this way are added one by one (total_facet.c). */
+   divide_facets those of them that are visible and flat, and add_packet evaluates these. Facets
+   that cannot be evaluated in this way are added one by one (total_facet.c). */
 #include <string.h>
 
 #include "base/bits.h"

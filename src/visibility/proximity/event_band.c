@@ -112,11 +112,11 @@ static int rim_may_face(const lrcsi_event_bands *bands, uint32_t event)
    unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
    can. */
 static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                          double lateral, int aligned)
+                          int correspondence, double lateral)
 {
     const lrcs_prepared *p = bands->view->prepared;
     uint32_t part = facet_part(bands, facet);
-    if (aligned) {
+    if (correspondence == LRCSI_ALIGNED) {
         return bands->events.part[event] == part
                    ? 0
                    : lrcsi_proximity_slack_aligned(p, bands->events.part[event]);
@@ -193,16 +193,19 @@ static void outline_fractions(lrcsi_event_bands *bands, uint32_t facet, uint32_t
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
    component perpendicular to the edge counts. */
 static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands, uint32_t facet,
-                                            uint32_t event, const lrcsi_facet_search *search,
-                                            double slack, double wider)
+                                            uint32_t event, int correspondence,
+                                            const lrcsi_facet_search *search, double slack,
+                                            double wider)
 {
     const lrcsi_topology *topology = &bands->view->prepared->topology;
     lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
         bands->view, facet, &topology->edge[bands->events.edge[event]], slack);
-    if (box.has_sides && !search->aligned) {
+    if (box.has_sides && correspondence == LRCSI_MAPPED) {
         double across = lrcsi_displacement_along(&search->displacement, box.across) +
                         box.rotation_err * search->lateral;
-        across = event_slack(bands, facet, event, lrcsi_min(across, search->lateral), 0) + wider;
+        across =
+            event_slack(bands, facet, event, LRCSI_MAPPED, lrcsi_min(across, search->lateral)) +
+            wider;
         box.half_width = lrcsi_min(across, slack) + box.err;
     }
     return box;
@@ -217,7 +220,7 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands, uint
    5. but no more than the area between outlines, where the part is in front of the facet.
    Returns 0 if there are none. */
 int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                          lrcsi_facet_search *search, lrcsi_event_band *f)
+                          int correspondence, lrcsi_facet_search *search, lrcsi_event_band *f)
 {
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
@@ -233,7 +236,7 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
         search->displacement = lrcsi_proximity_displacement(p, facet);
         search->lateral = lrcsi_displacement_across(&search->displacement, bands->view->unit);
     }
-    double slack = event_slack(bands, facet, event, search->lateral, search->aligned);
+    double slack = event_slack(bands, facet, event, correspondence, search->lateral);
     double err = 0;
     if (!(slack > 0)) {
         return 0;
@@ -245,13 +248,14 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
     int in_front = !is_own && lrcsi_part_is_in_front(&bands->orders, facet,
                                                      bands->events.part[event], &err, &f->unproved);
     slack += err;
-    lrcsi_edge_rectangle box = event_rectangle(bands, facet, event, search, slack, err); /* 3 */
+    lrcsi_edge_rectangle box =
+        event_rectangle(bands, facet, event, correspondence, search, slack, err); /* 3 */
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
     if (slice.count == 0 ||
         (!is_own &&
          lrcsi_edge_rectangle_behind(
              bands->view, facet, edge,
-             (search->aligned ? LRCSI_PROXIMITY_NEAR : 1) *
+             (correspondence == LRCSI_ALIGNED ? LRCSI_PROXIMITY_NEAR : 1) *
                  lrcsi_proximity_slack(p, facet_part(bands, facet), bands->events.part[event])))) {
         return 0;
     }
@@ -274,7 +278,7 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
     if (in_front) { /* 5 */
-        double delta = (search->aligned ? 0 : search->lateral) + err;
+        double delta = (correspondence == LRCSI_ALIGNED ? 0 : search->lateral) + err;
         double gain;
         double loss;
         outline_fractions(bands, facet, event, delta, &gain, &loss);

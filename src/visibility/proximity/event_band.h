@@ -34,13 +34,18 @@ size_t lrcsi_event_bands_need(const lrcs_prepared *prepared);
 int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                            lrcsi_event_bands *bands);
 
+/* Which point of the true surface a point of a facet stands for. */
+enum lrcsi_correspondence {
+    LRCSI_MAPPED, /* the one that the map of facets onto the true surface takes it to */
+    LRCSI_ALIGNED /* the one with the same projection: event_band.c, 5 */
+};
+
 /* The search for event edges near a facet. */
 typedef struct lrcsi_facet_search {
     lrcsi_edge_search where;
     int inside; /* the laser may see the facet through an opening of its own part */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
-    int aligned; /* 1: points of facet and true surface correspond if their projections are equal */
 } lrcsi_facet_search;
 
 lrcsi_facet_search lrcsi_facet_search_make(const lrcsi_event_bands *bands, uint32_t facet);
@@ -52,9 +57,9 @@ typedef struct lrcsi_event_band {
     double unproved; /* where a proof about the edge's part does not hold */
 } lrcsi_event_band;
 
-/* Returns 0 if there are none. */
+/* Given also: a lrcsi_correspondence. Returns 0 if there are none. */
 int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                          lrcsi_facet_search *search, lrcsi_event_band *band);
+                          int correspondence, lrcsi_facet_search *search, lrcsi_event_band *band);
 
 /* The sides of a facet near which an event edge of another part passes: bit k stands for the side
    from corner k to k + 1. Edges of a part behind the facet's own do not matter. */

@@ -124,20 +124,21 @@ static void add_unproved(lrcsi_proximity_band *band, uint32_t facet, uint32_t ot
     }
 }
 
-/* Adds the fractions near an event edge, which belong to the visibility of one of the two
-   correspondences between facet and true surface. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, lrcsi_facet_search *search)
+/* Adds the fractions near an event edge, for one of the two correspondences of points of the facet
+   and of the true surface. */
+static void add_event(band_job *job, uint32_t facet, uint32_t event, int correspondence,
+                      lrcsi_facet_search *search)
 {
     lrcsi_proximity_band *band = job->band;
     lrcsi_event_band near;
-    if (search->aligned && band->free_sides[facet] != 0) {
+    if (correspondence == LRCSI_ALIGNED && band->free_sides[facet] != 0) {
         band->free_sides[facet] &=
             (unsigned char)~lrcsi_event_sides(&job->bands, facet, event, search);
     }
-    if (!lrcsi_event_band_make(&job->bands, facet, event, search, &near)) {
+    if (!lrcsi_event_band_make(&job->bands, facet, event, correspondence, search, &near)) {
         return;
     }
-    if (search->aligned) {
+    if (correspondence == LRCSI_ALIGNED) {
         band->gain_aligned[facet] += near.gain + near.unproved;
         band->loss_aligned[facet] += near.loss + near.unproved;
         return;
@@ -154,7 +155,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, lrcsi_facet
 }
 
 /* Adds the fractions near all event edges. Returns 0 if the limit of steps is reached. */
-static int add_events(band_job *job, uint32_t facet, lrcsi_facet_search *search)
+static int add_events(band_job *job, uint32_t facet, int correspondence, lrcsi_facet_search *search)
 {
     const lrcsi_grid *grid = &job->bands.events.grid;
     lrcsi_grid_walk walk = search->where.rows;
@@ -167,23 +168,23 @@ static int add_events(band_job *job, uint32_t facet, lrcsi_facet_search *search)
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
-            if (!search->aligned && job->band->gain[facet] >= 1 && job->band->loss[facet] >= 1) {
+            if (correspondence == LRCSI_MAPPED && job->band->gain[facet] >= 1 &&
+                job->band->loss[facet] >= 1) {
                 job->band->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
                 return 1;
             }
             if (!lrcsi_marked(&job->considered, event)) {
                 job->considered.entry[event] = job->considered.number;
-                add_event(job, facet, event, search);
+                add_event(job, facet, event, correspondence, search);
             }
         }
     }
     return 1;
 }
 
-/* Begins the fractions for the correspondence of points with the same projection, unless they
-   cannot be known. The facet must lie on a round wall and show the laser a side that may be
-   visible, and every other part that is near it must be in front of its own part or behind it; what these proofs leave open is
-   counted. */
+/* Begins the fractions for aligned points, unless they cannot be known. The facet must lie on a
+   round wall and show the laser a side that may be visible, and every other part that is near it
+   must be in front of its own part or behind it; what these proofs leave open is counted. */
 static int begin_aligned(band_job *job, uint32_t facet, int inside)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -227,14 +228,12 @@ static void facet_fractions(band_job *job, uint32_t facet)
          search.where.high[0] < job->curved.low[0] || search.where.high[1] < job->curved.low[1])) {
         return;
     }
-    if (!add_events(job, facet, &search)) {
+    if (!add_events(job, facet, LRCSI_MAPPED, &search)) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
-    if (begin_aligned(job, facet, search.inside)) {
-        search.aligned = 1;
-        if (!add_events(job, facet, &search)) {
-            job->band->gain_aligned[facet] = -1;
-        }
+    if (begin_aligned(job, facet, search.inside) &&
+        !add_events(job, facet, LRCSI_ALIGNED, &search)) {
+        job->band->gain_aligned[facet] = -1;
     }
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
