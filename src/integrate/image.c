@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Converts an item buffer to a picture with row 0 at the top, and computes the position of its
-   window relative to the body's origin. visibility/raster/raster_draw.c has decided which facet owns each
-   pixel. */
+   window relative to the body's origin. visibility/raster/raster_draw.c has decided which facet
+   owns each pixel. */
 #include "integrate/image.h"
 
 #include <math.h>

@@ -105,8 +105,8 @@ static lrcsi_unit_response facet_response(const lrcs_brdf *own, const lrcs_brdf 
     return at;
 }
 
-/* The response of the correction of a facet (integrate/wall/linear.h), per unit of its area: from the
-   same patches as in facet_response. */
+/* The response of the correction of a facet (integrate/wall/linear.h), per unit of its area: from
+   the same patches as in facet_response. */
 static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrcs_brdf *own,
                                                const lrcs_brdf *unit, uint32_t facet,
                                                const response_patches *patches)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Range profiles: sigma in bins of range. visibility/occlude.c decides what is visible of a facet,
-   and integrate/sum/total.c what it reflects; this file divides the visible projected area of a facet
-   among the bins, and bounds the error of that. The stages of profile_sum:
+   and integrate/sum/total.c what it reflects; this file divides the visible projected area of a
+   facet among the bins, and bounds the error of that. The stages of profile_sum:
    1. the view (lrcsi_view_face, lrcsi_view_project) and the bins (bins_number);
    2. the classification (lrcsi_classify_make), and the proximity band where curved shapes need one;
    3. each facet that reflects (facet_add_profile): its sigma per area (lrcsi_facet_terms_make, or
@@ -39,17 +39,17 @@
    On a facet with curved normals s varies over P, but ranges are still those of the flat facet. The
    part of P in a bin is divided into trapezia between lines of equal range (one of them through the
    middle corner), and each of these into two triangles, whose areas are the two terms of the
-   trapezium's area in (4); s is integrated over them by integrate/cubature/cubature.h. (2) and (3) hold with
-   the largest s that the facet's normals allow. (1) is replaced by the rounding error of the
-   integral: the corners of the triangles have errors of 8 u of the triangle, and their normals
-   twice that, which position_err includes (integrate/cubature/curve.c). The error of the cubature itself is
-   an estimate, and is not part of any bound.
+   trapezium's area in (4); s is integrated over them by integrate/cubature/cubature.h. (2) and (3)
+   hold with the largest s that the facet's normals allow. (1) is replaced by the rounding error of
+   the integral: the corners of the triangles have errors of 8 u of the triangle, and their normals
+   twice that, which position_err includes (integrate/cubature/curve.c). The error of the cubature
+   itself is an estimate, and is not part of any bound.
 
    The error e. The range of a corner in double-double has the error RANGE_DD_ERROR, which matters
    if z is nearly 0; it is rounded once, 1.01 u |z|. A point of a piece is a weighted sum of
    corners; the weights add up to 1 within 4 u, and the sum has three roundings: 7 u |z|. The
-   projection of the point has an error of 100 u of the reach of visibility/cells/target.h, which becomes
-   tan(theta) times as much in range. */
+   projection of the point has an error of 100 u of the reach of visibility/cells/target.h, which
+   becomes tan(theta) times as much in range. */
 #include <lrcs/profile.h>
 
 #include <float.h>

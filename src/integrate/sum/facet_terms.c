@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The terms of one facet: 4 pi S f times the visible fraction, f = f_r cos^2, and a bound on their
    rounding error. f is that of the facet's normal, or its mean over the patch that the facet
-   represents (integrate/wall/patch.h). integrate/sum/total_facet.c adds the terms up; most facets are
-   evaluated in packets instead (integrate/sum/total_packet.c). */
+   represents (integrate/wall/patch.h). integrate/sum/total_facet.c adds the terms up; most facets
+   are evaluated in packets instead (integrate/sum/total_packet.c). */
 #include "integrate/sum/facet_terms.h"
 
 #include <math.h>

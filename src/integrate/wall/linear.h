@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* F = f_r cos^2 over the patch of a facet (integrate/wall/patch.h), approximated by a linear function of
-   position on the facets, where only a part of them is visible. */
+/* F = f_r cos^2 over the patch of a facet (integrate/wall/patch.h), approximated by a linear
+   function of position on the facets, where only a part of them is visible. */
 #ifndef LRCSI_LINEAR_H
 #define LRCSI_LINEAR_H
 

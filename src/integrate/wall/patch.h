@@ -59,8 +59,8 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
 #define LRCSI_PATCH_SLOPE_MIN 1e-3
 
 /* The error of a normal of the true surface and the direction to the laser together, and what it
-   changes in both terms of f_r cos^2, relative, up to the factor exp of it (integrate/wall/patch.c).
-   Given: u = tan^2, cosine and sine of the incidence angle. */
+   changes in both terms of f_r cos^2, relative, up to the factor exp of it
+   (integrate/wall/patch.c). Given: u = tan^2, cosine and sine of the incidence angle. */
 #define LRCSI_PATCH_NORMAL_ERR (64 * LRCSI_U)
 typedef struct lrcsi_term_errors {
     double glint, diffuse;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What is known about the visibility of a facet and of the patch of the true surface that it
-   represents: a state, and bounds on fractions. The proofs that use them: integrate/wall/tessellation.c.
-   Given to each function: the visible areas of all facets; the proximity band, or NULL if every
-   front is entirely visible or the bounds of the visible area include what could be hidden. */
+   represents: a state, and bounds on fractions. The proofs that use them:
+   integrate/wall/tessellation.c. Given to each function: the visible areas of all facets; the
+   proximity band, or NULL if every front is entirely visible or the bounds of the visible area
+   include what could be hidden. */
 #ifndef LRCSI_PATCH_VISIBILITY_H
 #define LRCSI_PATCH_VISIBILITY_H
 

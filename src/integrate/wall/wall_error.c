@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Chooses, among the bounds that integrate/wall/tessellation.c proves for a facet on a curved wall, the
-   smallest one: with the mean of F over the patch, or with a linear function in its place
+/* Chooses, among the bounds that integrate/wall/tessellation.c proves for a facet on a curved wall,
+   the smallest one: with the mean of F over the patch, or with a linear function in its place
    (integrate/wall/linear.h), which also corrects the sum. */
 #include "integrate/wall/wall_error.h"
 
