@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A model of the time that methods take: the sum of several counts, each multiplied by the time of
    one item. These times were measured on one machine (make bench; 3 GHz); only their ratios matter.
-   No bound depends on the model. */
+   All constants are heuristics: no bound depends on the model. */
 #include "integrate/cost.h"
 
 #include <math.h>

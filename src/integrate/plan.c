@@ -3,14 +3,13 @@
    the effects that the options switch off or on. */
 #include "integrate/plan.h"
 
-/* The size of the first raster, if its bound is to meet the tolerance. */
-#define FIRST_SIZE 512u
-
-/* With a tolerance below this, no raster is expected to be accepted by its estimate. */
+/* Heuristics, which affect the time of a run, and whether its answer is one of clipping or of a
+   raster: the size of the first raster, if its bound is to meet the tolerance; the tolerance below
+   which no raster is expected to be accepted by its estimate; the number of facets below which
+   clipping costs less than a raster (samples_suffice). */
+#define FIRST_SIZE            512u
 #define PREVIEW_TOLERANCE_MIN 1e-4
-
-/* With fewer facets than this, answers are never accepted from samples alone. */
-#define PREVIEW_FACETS 1024u
+#define PREVIEW_FACETS        1024u
 
 static int has_effect(uint32_t set, int effect)
 {

@@ -38,12 +38,11 @@ typedef struct lrcsi_sigma {
     lrcsi_sigma_request request;
     lrcs_work *work;
     lrcsi_view view;
-    lrcsi_meter meter; /* limit on the steps of the visibility computation */
-    lrcsi_clear_shapes
-        clear;       /* shapes that are evaluated by their closed forms: method auto only */
-    lrcsi_plan plan; /* is not changed once it is made */
-    lrcsi_cost cost; /* if the plan has previews */
-    int classified;  /* the classification is made, and the band if the plan needs it */
+    lrcsi_meter meter;        /* limit on the steps of the visibility computation */
+    lrcsi_clear_shapes clear; /* those evaluated by their closed forms: method auto only */
+    lrcsi_plan plan;          /* is not changed once it is made */
+    lrcsi_cost cost;          /* if the plan has previews */
+    int classified;           /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
     lrcsi_proximity_band band;
     int decided; /* decisions are made: by the first raster, for all of them */
@@ -90,7 +89,8 @@ typedef struct lrcsi_attempts {
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
 } lrcsi_attempts;
 
-/* The size of the finest raster: a finer one would improve the bound too little for its cost. */
+/* The size of the finest raster. A heuristic: a finer one would improve the bound too little for its
+   cost. */
 #define LRCSI_SIGMA_SIZE_MAX 4096u
 
 /* --- sigma_attempt.c -------------------------------------------------------------------------- */

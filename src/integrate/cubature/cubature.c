@@ -41,18 +41,20 @@
    leaves three more cells on the stack. */
 #define HALVINGS_MAX 64u
 #define STACK_CELLS  (3 * HALVINGS_MAX / 2 + 4)
-/* Limit on the cells of one sum, apart from those into which a triangle may always be divided. */
-#define SPLITS_MAX (1u << 15)
-/* Where that limit is reached, the tolerance is increased by this factor, up to a maximum. */
+/* Limit on the cells of one sum, apart from those into which a triangle may always be divided; and
+   where it is reached, the factor by which the tolerance is increased, up to a maximum. Heuristics,
+   which affect only work and estimate. */
+#define SPLITS_MAX       (1u << 15)
 #define TOLERANCE_FACTOR 100
 #define TOLERANCE_MAX    1e-2
 /* Steps (base/meter.h) that a cell takes: quarters, the rule on each, bounds. */
 #define CELL_STEPS 256
-/* A rule is trusted only if the normals of the cell turn by no more than this, rad. */
+/* A rule is trusted only if the normals of the cell turn by no more than this, rad: a heuristic, as
+   are all conditions of trust (cell_trust). */
 #define TURN_MAX 0.5
 /* A value of f_r cos is negligible if it is below this times the tolerance times the integral, over
-   a radian, of a peak as high as the upper bound and as wide as the BRDF's. Such values are part of
-   the estimate. */
+   a radian, of a peak as high as the upper bound and as wide as the BRDF's. A heuristic: such values
+   are part of the estimate. */
 #define NEGLIGIBLE 0x1p-20
 /* Terms smaller than this times A + B are within the bounds on underflow (optics/deviation.c). */
 #define TERM_MIN 0x1p-1008

@@ -25,7 +25,7 @@
 #define NORMAL_ERR 0x1p-44
 
 /* The cubature aims at this fraction of the tolerance, but at no less and no more than its rule is
-   suited for. */
+   suited for. Heuristics: its error is estimated, whatever it aims at. */
 #define CUBATURE_FRACTION 0.1
 #define CUBATURE_MIN      1e-9
 #define CUBATURE_MAX      1e-2

@@ -113,7 +113,7 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
 {
     const lrcsi_view *view = &run->view;
     const lrcs_scene *scene = view->prepared->scene;
-    const lrcs_patch_bounds *c = &scene->part[scene->facet_part[facet]].bounds.patch;
+    const lrcs_patch_bounds *bounds = &scene->part[scene->facet_part[facet]].bounds.patch;
     double projected = lrcsi_view_projected(view, facet);
     lrcsi_unit_response at = {0, 0, 0, 0};
     for (int i = 0; i < 2; i++) {
@@ -122,7 +122,8 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
         int glint = i == 0 ? own->A > 0 : own->A == 0;
         int diffuse = i == 0 ? own->B > 0 : own->B == 0;
         lrcsi_linear linear;
-        if ((glint || diffuse) && patch && lrcsi_linear_make(view, brdf, patch, c, 0, &linear)) {
+        if ((glint || diffuse) && patch &&
+            lrcsi_linear_make(view, brdf, patch, bounds, 0, &linear)) {
             lrcsi_linear_moment m = lrcsi_linear_moment_make(
                 view, facet, patch, &run->visible[facet], &run->moment[facet]);
             const double x = m.first[0] / projected;
@@ -166,9 +167,10 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
                                brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
         if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
-            const lrcsi_curve_terms *c = &run->curve_terms[f];
-            const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
-                                            -0.5 * c->diffuse_log};
+            const lrcsi_curve_terms *curved = &run->curve_terms[f];
+            const lrcsi_unit_response at = {curved->glint, curved->diffuse,
+                                            glint_slope_s(curved->glint_u, s),
+                                            -0.5 * curved->diffuse_log};
             response_sum(to, 1, &at);
         } else if (fraction > 0) {
             response_patches found = patches_find(view, plan, &own, &unit, f, patches);

@@ -24,17 +24,20 @@
 #include "integrate/derivative/sensitivity.h"
 #include "integrate/sigma.h"
 
-/* The nodes of each material's s and m; the middle one is its own. */
+/* The nodes of each material's s and m, of which the middle one is its own. A heuristic: so many
+   that the error of interpolation is small beside the random error of the sample. */
 #define NODES        17u
 #define NODES_CURVED 9u /* with curved normals, where each node takes a pose */
-/* Nodes and draws of s and m extend this many standard deviations to either side. */
+/* Nodes and draws of s and m extend this many standard deviations to either side: a normal deviate
+   is beyond that once in 16,000 draws. */
 #define DEVIATIONS_MAX 4.0
-/* The smallest s of nodes and draws, relative to the material's own; below it sigma changes
-   little. */
+/* The smallest s of nodes and draws, relative to the material's own, which keeps it above 0. A
+   heuristic: below it sigma changes little. */
 #define SLOPE_MIN 0.0625
 /* The result to first order is reported unless its standard deviation differs from that of the
    sample by more than this fraction, or the sample's mean differs from sigma by more than this many
-   of its standard deviations. Differences below three standard errors are attributed to chance. */
+   of its standard deviations. Differences below three standard errors are attributed to chance.
+   Heuristics: both results are reported. */
 #define DEVIATION_DIFFERENCE_MAX 0.05
 #define MEAN_DIFFERENCE_MAX      0.1
 #define STANDARD_ERRORS          3.0
@@ -129,8 +132,8 @@ static void correlation_fill(const double c[6], double out[4][4])
     memcpy(out, full, sizeof full);
 }
 
-/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 up to rounding, the
-   column of that pivot is 0. */
+/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 up to rounding (below
+   1e-9, a heuristic), the column of that pivot is 0. */
 static void correlation_root(const double c[6], double root[4][4])
 {
     double a[4][4];

@@ -68,7 +68,7 @@ static void bin_add_flat(lrcsi_range_bins *bins, const lrcsi_range_facet *f, uin
 
 /* Adds a triangle with curved normals that lies in one bin.
    Given: its projected area, and the ranges and normals at its corners. */
-static void bin_add_smooth(lrcsi_range_bins *bins, const lrcsi_range_facet *f, uint32_t i,
+static void bin_add_curved(lrcsi_range_bins *bins, const lrcsi_range_facet *f, uint32_t i,
                            double area, const double range[3], const double normal[3][3])
 {
     double centre = centre_of(bins, i);
@@ -147,8 +147,8 @@ static void trapezium_add(lrcsi_range_bins *bins, const lrcsi_range_facet *f, ui
         normal_at(normal, z, a, b, from, side[1]);
         normal_at(normal, z, 0, 2, to, side[2]);
         normal_at(normal, z, a, b, to, side[3]);
-        bin_add_smooth(bins, f, bin, scale * first, range[0], (const double(*)[3])side);
-        bin_add_smooth(bins, f, bin, scale * last, range[1], (const double(*)[3])(side + 1));
+        bin_add_curved(bins, f, bin, scale * first, range[0], (const double(*)[3])side);
+        bin_add_curved(bins, f, bin, scale * last, range[1], (const double(*)[3])(side + 1));
         return;
     }
     double centre = centre_of(bins, bin);
@@ -179,7 +179,7 @@ void lrcsi_range_add_triangle(lrcsi_range_bins *bins, const lrcsi_range_facet *f
     uint32_t begin = bin_within(bins, f, z[0]);
     uint32_t end = bin_within(bins, f, z[2]);
     if (begin == end && f->curve) { /* 2 */
-        bin_add_smooth(bins, f, begin, area, z, (const double(*)[3])t.normal);
+        bin_add_curved(bins, f, begin, area, z, (const double(*)[3])t.normal);
     } else if (begin == end) {
         double centre = centre_of(bins, begin);
         double mean = ((z[0] - centre) + (z[1] - centre) + (z[2] - centre)) / 3;

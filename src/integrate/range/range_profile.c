@@ -419,9 +419,9 @@ static int bins_number(profile_run *run)
     return LRCS_OK;
 }
 
-/* Takes what curved shapes need besides the classification, the visible areas of all facets and the
-   proximity band, and what curved normals need, the stack of the cubature. */
-static int curved_take(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
+/* Makes what curved shapes need besides the classification, room for the visible areas of all facets
+   and the proximity band; and what curved normals need, the context of their integrals. */
+static int curved_make(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
     if (p->has_curved_shapes) {
@@ -468,7 +468,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
         status =
             run->bins.bin ? lrcsi_classify_make(view, NULL, work, &classification) : LRCS_E_MEMORY;
     }
-    status = status == LRCS_OK ? curved_take(run, &classification, work) : status;
+    status = status == LRCS_OK ? curved_make(run, &classification, work) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&

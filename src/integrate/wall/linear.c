@@ -125,8 +125,8 @@ typedef struct linear_patch {
 /* Fills the gradients of l and returns the sum of both terms' dF/dc as far as they vary; the bounds
    of what depends on F alone, and the error of the gradients. */
 static double gradients_make(const linear_patch *at, const linear_term term[2],
-                             const lrcsi_patch *patch, const lrcs_patch_bounds *c, double second,
-                             lrcsi_linear *linear)
+                             const lrcsi_patch *patch, const lrcs_patch_bounds *bounds,
+                             double second, lrcsi_linear *linear)
 {
     const double mean[2] = {patch->glint, patch->diffuse};
     double *gradient[2] = {linear->glint, linear->diffuse};
@@ -150,21 +150,21 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
         int flank = !(varies <= mean[k]);
         steepest += turned;
         if (flank) {
-            linear->region += turned * c->rms_turn * sqrt(1 + c->area_err);
-            linear->point += turned * c->turn;
+            linear->region += turned * bounds->rms_turn * sqrt(1 + bounds->area_err);
+            linear->point += turned * bounds->turn;
         } else {
             kept += term[k].slope;
             linear->rounding += (term[k].err * at->p + slope * (2 * LRCSI_PATCH_NORMAL_ERR)) *
-                                c->turn * (1 + c->area_err);
+                                bounds->turn * (1 + bounds->area_err);
         }
         for (int j = 0; j < 2; j++) {
             gradient[k][j] = flank ? 0 : term[k].slope * across[j];
             derivative[k][j] = flank ? 0 : term[k].derivative * across[j];
         }
     }
-    double curved = 0.5 * second + steepest * c->turn / 6;
-    linear->region += c->rms_turn * c->rms_turn * curved;
-    linear->point += c->turn * c->turn * curved;
+    double curved = 0.5 * second + steepest * bounds->turn / 6;
+    linear->region += bounds->rms_turn * bounds->rms_turn * curved;
+    linear->point += bounds->turn * bounds->turn * curved;
     return kept;
 }
 

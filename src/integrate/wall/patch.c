@@ -63,16 +63,16 @@
 #include "optics/reflect.h"
 
 #define PATCH_AREA_ERR (512 * LRCSI_U)
-/* The remainder that a rule should have, relative to F in the middle of the patch; but a remainder
-   that is negligible (lrcsi_patches) is small enough. */
+/* Heuristics, which affect the time and the size of remainders, which are part of the bound whatever
+   they are: the remainder that a rule should have, relative to F in the middle of the patch, unless
+   it is negligible (lrcsi_patches); the remainder, relative to the mean, above which the mean is
+   not used, unless it is negligible; the largest number of pieces into which a patch is divided in
+   each variable. */
 #define REMAINDER_TARGET 0x1p-26
-/* The mean is not used if its remainder, relative to the mean, is larger than this, and not
-   negligible. */
-#define REMAINDER_MAX 0x1p-10
-/* The largest number of pieces into which a patch is divided in each variable. */
-#define PIECES_MAX 4
+#define REMAINDER_MAX    0x1p-10
+#define PIECES_MAX       4
 
-/* The radii r for which M is computed; the smallest remainder is used. */
+/* The radii r for which M is computed: any would do, and the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
 #define RADII ((int)(sizeof radii / sizeof *radii))
 

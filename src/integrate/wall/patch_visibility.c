@@ -8,7 +8,7 @@
 #include "base/constant.h"
 
 /* A facet of which at most this fraction can be visible counts as hidden; what may be visible of it
-   is then part of its error. */
+   is then part of its error. A heuristic: the bounds hold for any fraction. */
 #define HIDDEN_FRACTION 0x1p-20
 
 /* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always

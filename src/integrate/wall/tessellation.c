@@ -105,17 +105,17 @@ static double inside_error(const lrcsi_tessellation_input *in, uint32_t facet,
 /* An upper bound of what a patch may reflect from its other side, the one that the facet turns away
    from the laser, per unit of the facet's area. */
 static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, const lrcs_brdf *brdf,
-                         const lrcsi_incidence *incidence, const lrcs_patch_bounds *c)
+                         const lrcsi_incidence *incidence, const lrcs_patch_bounds *bounds)
 {
     const lrcs_prepared *p = in->view->prepared;
-    if (!(c->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
+    if (!(bounds->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
         !lrcsi_prepared_material(p, facet)->two_sided ||
         (in->band && lrcsi_proximity_is_hidden(in->band, facet))) {
         return 0;
     }
     double cosine = -fabs(incidence->cos_theta);
-    return (1 + lrcsi_patch_area_err(p, facet, c)) *
-           lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).value_max;
+    return (1 + lrcsi_patch_area_err(p, facet, bounds)) *
+           lrcsi_deviation_make(brdf, cosine, incidence->tan2, bounds).value_max;
 }
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
@@ -142,8 +142,8 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     const lrcsi_view *view = in->view;
     const lrcs_prepared *p = view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
-    const lrcs_patch_bounds c = patch_bounds_of(p, facet);
-    int is_curved = c.turn > FLAT_TURN;
+    const lrcs_patch_bounds bounds = patch_bounds_of(p, facet);
+    int is_curved = bounds.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
     int is_certain = !in->band || in->band->mismatch[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
@@ -151,7 +151,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
                       ? lrcsi_patch_hidden_fraction(incidence, facet, in->visible, in->band)
                       : 0;
     lrcsi_tessellation error = {0, 0, 0, 0, 0};
-    error.above = area * other_side(in, facet, &brdf, incidence, &c); /* 1 */
+    error.above = area * other_side(in, facet, &brdf, incidence, &bounds); /* 1 */
     if (state == LRCSI_PATCH_AWAY) {
         error.below = area * inside_error(in, facet, &brdf, incidence);
     }
@@ -169,16 +169,17 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         }
     }
     lrcsi_wall_facet at = {.facet = facet, /* 4 */
-                           .bounds = c,
-                           .area_err = lrcsi_patch_area_err(p, facet, &c),
+                           .bounds = bounds,
+                           .area_err = lrcsi_patch_area_err(p, facet, &bounds),
                            .state = state,
                            .partner = partner,
                            .pair = {*incidence, *incidence},
                            .fractions = {0, 0, 0, 1}};
     if (state == LRCSI_PATCH_AWAY) {
-        at.deviation.of_f = lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &c);
+        at.deviation.of_f =
+            lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &bounds);
     } else {
-        at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &c, patches);
+        at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
         at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band);
     }
     lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 5 */
@@ -216,8 +217,8 @@ lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input 
 {
     const lrcs_prepared *p = in->view->prepared;
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    const lrcs_patch_bounds c = patch_bounds_of(p, facet);
-    int is_curved = c.turn > FLAT_TURN;
+    const lrcs_patch_bounds bounds = patch_bounds_of(p, facet);
+    int is_curved = bounds.turn > FLAT_TURN;
     lrcsi_tessellation error = lrcsi_tessellation_error(in, facet, incidence, patches);
     lrcsi_interval_error e = {.whole = fmax(error.above, error.below),
                               .visible = lrcsi_patch_is_visible(
@@ -229,11 +230,12 @@ lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input 
         e.partner = partner;
     }
     if (e.visible) {
-        lrcsi_patch_deviation d = lrcsi_patch_deviation_make(in, facet, incidence, &c, patches);
+        lrcsi_patch_deviation d =
+            lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
         double area = 0.5 * p->normal[facet].length;
-        double a = is_curved ? lrcsi_patch_area_err(p, facet, &c) : 0;
+        double a = is_curved ? lrcsi_patch_area_err(p, facet, &bounds) : 0;
         lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
-        double other = other_side(in, facet, &brdf, incidence, &c);
+        double other = other_side(in, facet, &brdf, incidence, &bounds);
         e.deviation =
             is_curved ? area * ((1 + a) * d.of_f.point + d.stretch * d.of_f.value + other) : 0;
         e.shift = area * (1 + a) * d.of_f.value;

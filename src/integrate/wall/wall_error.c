@@ -11,10 +11,10 @@
 
 /* --- how F varies over a patch ---------------------------------------------------------------- */
 
-double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_patch_bounds *c)
+double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_patch_bounds *bounds)
 {
     double stretch_err = lrcsi_patch_part(p, facet)->bounds.stretch_err;
-    return c->area_err + stretch_err + c->area_err * stretch_err;
+    return bounds->area_err + stretch_err + bounds->area_err * stretch_err;
 }
 
 /* Makes the deviation that of F from the mean over the patch, F_i, in place of F at the normal of
@@ -51,13 +51,14 @@ static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
 /* The deviation for a facet whose patch, if it has one, has been made. */
 static lrcsi_patch_deviation patch_deviation(const lrcsi_tessellation_input *in, uint32_t facet,
                                              const lrcsi_incidence *incidence,
-                                             const lrcs_patch_bounds *c, const lrcsi_patch *patch)
+                                             const lrcs_patch_bounds *bounds,
+                                             const lrcsi_patch *patch)
 {
     const lrcs_prepared *p = in->view->prepared;
     lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
     lrcsi_patch_deviation deviation = {
-        .of_f = lrcsi_deviation_make(&brdf, fabs(incidence->cos_theta), incidence->tan2, c),
-        .stretch = lrcsi_patch_area_err(p, facet, c),
+        .of_f = lrcsi_deviation_make(&brdf, fabs(incidence->cos_theta), incidence->tan2, bounds),
+        .stretch = lrcsi_patch_area_err(p, facet, bounds),
         .patch = patch};
     if (patch) {
         deviation_about_mean(p, facet, &deviation);
@@ -67,10 +68,11 @@ static lrcsi_patch_deviation patch_deviation(const lrcsi_tessellation_input *in,
 
 lrcsi_patch_deviation lrcsi_patch_deviation_make(const lrcsi_tessellation_input *in, uint32_t facet,
                                                  const lrcsi_incidence *incidence,
-                                                 const lrcs_patch_bounds *c, lrcsi_patches *patches)
+                                                 const lrcs_patch_bounds *bounds,
+                                                 lrcsi_patches *patches)
 {
     lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(in->view->prepared, facet));
-    return patch_deviation(in, facet, incidence, c,
+    return patch_deviation(in, facet, incidence, bounds,
                            lrcsi_patch_make(in->view, in->plan, &brdf, facet, patches));
 }
 
