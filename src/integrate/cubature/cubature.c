@@ -199,7 +199,7 @@ static void cell_trust(const lrcsi_cubature *sum, double weight_max, lrcsi_cubat
 }
 
 /* Adds the value of a cell to the sum. */
-static void sum_keep(lrcsi_cubature *sum, const lrcsi_cubature_cell *cell)
+static void sum_add_value(lrcsi_cubature *sum, const lrcsi_cubature_cell *cell)
 {
     lrcsi_sum_add(&sum->glint, cell->value.glint);
     lrcsi_sum_add(&sum->diffuse, cell->value.diffuse);
@@ -254,14 +254,14 @@ static uint32_t cell_step(lrcsi_cubature *sum, double weight_max, lrcsi_cubature
         }
         double bound = cell_integral_bound(sum, cell);
         cell->value = rule_value(sum, cell);
-        sum_keep(sum, cell);
+        sum_add_value(sum, cell);
         sum_add_error(sum, bound, bound);
         return 0;
     }
     double area = lrcsi_cubature_cell_area(cell);
     double value = cell->value.glint + cell->value.diffuse;
     if (cell->rule_err * value <= sum->tolerance * value + accepted_error(sum) * area) { /* 2 */
-        sum_keep(sum, cell);
+        sum_add_value(sum, cell);
         sum->estimate += cell->rule_err * value + cell->skipped * area;
         return 0;
     }
@@ -294,7 +294,7 @@ static uint32_t cell_step(lrcsi_cubature *sum, double weight_max, lrcsi_cubature
         sum_add_error(sum, cell_integral_bound(sum, cell), estimate);
     }
     for (int i = 0; i < 4; i++) {
-        sum_keep(sum, &part[i]);
+        sum_add_value(sum, &part[i]);
     }
     return 0;
 }

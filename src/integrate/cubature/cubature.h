@@ -31,7 +31,7 @@ typedef struct lrcsi_cubature_surface {
 
 /* A sum over triangles of one surface. */
 typedef struct lrcsi_cubature {
-    lrcsi_cubature_surface surface; /* given, and not changed */
+    lrcsi_cubature_surface surface; /* given; not changed after the first triangle */
     double tolerance; /* the surface's, or increased where the work would exceed the limits */
     lrcsi_sum glint, diffuse;
     lrcsi_sum glint_u, diffuse_log; /* the integral of the glint times tan^2, and that of the
