@@ -124,28 +124,6 @@ static int run_allocate(lrcsi_sigma *run)
 
 /* --- the stages ------------------------------------------------------------------------------- */
 
-/* Finds visible areas where shadows are searched for, and sums over them: attempt by attempt, until
-   a sum is accepted or no other attempt would improve it. */
-static int run_attempts(lrcsi_sigma *run)
-{
-    lrcsi_attempts attempts = {.last = {.method = LRCS_METHOD_AUTO}};
-    int status = LRCS_OK;
-    if (run->plan.previews) {
-        run->cost = lrcsi_cost_count(&run->view);
-    }
-    while (status == LRCS_OK && lrcsi_attempts_next(run, &attempts)) { /* which method, how fine */
-        lrcsi_attempt *attempt = &attempts.last;
-        status = lrcsi_sigma_search(run, attempt); /* visible areas */
-        if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
-            run->request.last == LRCSI_SIGMA_SUM) {
-            lrcsi_sigma_sum(run, &attempt->meter);
-        }
-        lrcsi_sigma_search_end(run, attempt);
-    }
-    lrcsi_sigma_release_decisions(run);
-    return status;
-}
-
 int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *prepared,
                        const lrcs_pose *pose, lrcs_work *work, lrcsi_sigma *run)
 {
@@ -155,6 +133,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     run->request = *request;
     run->work = work;
     run->meter.limit = options->steps != 0 ? options->steps : UINT64_MAX;
+
     /* 1. The view, and what it calls for. */
     int status =
         lrcsi_view_face(prepared, pose, lrcsi_plan_backs(prepared, options), work, &run->view);
@@ -164,30 +143,50 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
                      ? lrcsi_clear_make(&run->view, work, &run->clear)
                      : LRCS_OK;
     }
+    if (status == LRCS_OK) {
+        run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
+        run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
+        status = run_allocate(run);
+    }
     if (status != LRCS_OK) {
         return status;
     }
-    run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
-    run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
-    status = run_allocate(run);
+
     /* 2. Without a search for shadows: the sum over the areas that the plan implies. */
-    if (status != LRCS_OK || run_is_unshadowed(run)) {
-        if (status == LRCS_OK && request->last == LRCSI_SIGMA_SUM) {
+    if (run_is_unshadowed(run)) {
+        if (request->last == LRCSI_SIGMA_SUM) {
             lrcsi_sigma_sum_unshadowed(run);
         }
-        return status;
+        return LRCS_OK;
     }
+
     /* 3. View coordinates, and which facets are undecided, unless samples alone decide. */
     status = lrcsi_view_project(work, &run->view);
+    if (status == LRCS_OK && run->plan.previews) {
+        run->cost = lrcsi_cost_count(&run->view);
+    }
     if (status == LRCS_OK && request->last >= LRCSI_SIGMA_CLASSIFY && !run->plan.samples_only) {
         status = lrcsi_sigma_classify(run, &run->meter);
     }
     if (status != LRCS_OK || request->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
-    /* 4. Visible areas, and the sum over them. */
+
+    /* 4. Visible areas and the sum over them, attempt by attempt, until an answer is accepted or no
+       other attempt would improve it. */
+    lrcsi_attempts attempts = {.last = {.method = LRCS_METHOD_AUTO}};
+    lrcsi_attempt *attempt = &attempts.last;
     lrcsi_progress_report(options->progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
-    return run_attempts(run);
+    while (status == LRCS_OK && lrcsi_attempts_next(run, &attempts)) { /* which method, how fine */
+        status = lrcsi_sigma_search(run, attempt);                     /* visible areas */
+        if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
+            request->last == LRCSI_SIGMA_SUM) {
+            lrcsi_sigma_sum(run, &attempt->meter);
+        }
+        lrcsi_sigma_search_end(run, attempt);
+    }
+    lrcsi_sigma_release_decisions(run);
+    return status;
 }
 
 int lrcsi_sigma_request_make(const lrcs_prepared *prepared, const lrcs_run_options *options,
