@@ -148,26 +148,26 @@ static void add_packet(lrcsi_total_run *run, total_batch *batch)
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Up to LRCSI_LANES facets, as indices in the batches. */
-typedef struct facet_list {
-    uint32_t count;
+/* Facets that are added one by one, as indices in the batches: those of clear shapes, and after
+   them the visible ones with curved normals. */
+typedef struct single_facets {
     uint32_t element[LRCSI_LANES];
-} facet_list;
+    uint32_t clear, curved; /* how many of each */
+} single_facets;
 
 /* Divides facets that reflect, from the side given, by how they are added. Given: `count` of them,
    as indices in the batches. Returned: list[0 .. n - 1], those that are evaluated in packets, and
-   their number n; *clear, those of clear shapes; *curved, the visible ones with curved normals. The
-   others are hidden. */
+   their number n; *single, those that are not. The others are hidden. */
 static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *list, uint32_t count,
-                              facet_list *clear, facet_list *curved)
+                              single_facets *single)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t left = 0;
-    clear->count = curved->count = 0;
+    single->clear = single->curved = 0;
     if (run->clear) {
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_total_in_clear_shape(run, facet[list[k]])) {
-                clear->element[clear->count++] = list[k];
+                single->element[single->clear++] = list[k];
             } else {
                 list[left++] = list[k];
             }
@@ -185,7 +185,7 @@ static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *li
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_curve_applies(run->view, facet[list[k]])) {
-                curved->element[curved->count++] = list[k];
+                single->element[single->clear + single->curved++] = list[k];
             } else {
                 list[left++] = list[k];
             }
@@ -210,16 +210,15 @@ static void add_selected(lrcsi_total_run *run, total_batch *batch, uint32_t star
         count += (uint32_t)(pick[i] >> 63);
     }
     if (run->areas->visible || run->clear || run->view->prepared->batches.redundant) {
-        facet_list clear;
-        facet_list curved;
-        uint32_t packed = divide_facets(run, side, list, count, &clear, &curved);
-        for (uint32_t k = 0; k < clear.count; k++) {
-            lrcsi_total_add_clear(run, facet[clear.element[k]]);
+        single_facets single;
+        uint32_t packed = divide_facets(run, side, list, count, &single);
+        for (uint32_t k = 0; k < single.clear; k++) {
+            lrcsi_total_add_clear(run, facet[single.element[k]]);
         }
-        for (uint32_t k = 0; k < curved.count; k++) {
-            lrcsi_total_add_reflecting(run, facet[curved.element[k]]);
+        for (uint32_t k = 0; k < single.curved; k++) {
+            lrcsi_total_add_reflecting(run, facet[single.element[single.clear + k]]);
         }
-        run->total.hidden += count - packed - clear.count - curved.count;
+        run->total.hidden += count - packed - single.clear - single.curved;
         count = packed;
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
