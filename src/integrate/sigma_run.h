@@ -89,8 +89,8 @@ typedef struct lrcsi_attempts {
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
 } lrcsi_attempts;
 
-/* The size of the finest raster. A heuristic: a finer one would improve the bound too little for its
-   cost. */
+/* The size of the finest raster. A heuristic: a finer one would improve the bound too little for
+   its cost. */
 #define LRCSI_SIGMA_SIZE_MAX 4096u
 
 /* --- sigma_attempt.c -------------------------------------------------------------------------- */

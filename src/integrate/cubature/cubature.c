@@ -53,8 +53,8 @@
    are all conditions of trust (cell_trust). */
 #define TURN_MAX 0.5
 /* A value of f_r cos is negligible if it is below this times the tolerance times the integral, over
-   a radian, of a peak as high as the upper bound and as wide as the BRDF's. A heuristic: such values
-   are part of the estimate. */
+   a radian, of a peak as high as the upper bound and as wide as the BRDF's. A heuristic: such
+   values are part of the estimate. */
 #define NEGLIGIBLE 0x1p-20
 /* Terms smaller than this times A + B are within the bounds on underflow (optics/deviation.c). */
 #define TERM_MIN 0x1p-1008

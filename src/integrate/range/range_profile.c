@@ -4,11 +4,11 @@
    facet among the bins, and bounds the error of that. The stages of profile_sum:
    1. the view (lrcsi_view_face, lrcsi_view_project) and the bins (bins_number);
    2. the classification (lrcsi_classify_make), and the proximity band where curved shapes need one;
-   3. each facet that reflects (facet_add_profile): its sigma per area (lrcsi_facet_terms_make, or
+   3. each facet that reflects (profile_add_facet): its sigma per area (lrcsi_facet_terms_make, or
       lrcsi_curve_integral_make for curved normals), the bins of its corners (facet_ranges), and its
       visible pieces (lrcsi_occlude_open, _next, _close), triangle by triangle
       (lrcsi_range_add_triangle);
-   4. the error of facets in place of curved shapes (tessellation_add_error).
+   4. the error of facets in place of curved shapes (profile_add_tessellation).
 
    Let s be a facet's sigma per visible projected area, which is constant on a flat facet, and P one
    of the triangles of a fan over its visible pieces. The computed range z~ is interpolated linearly
@@ -166,8 +166,9 @@ static void piece_corner(const lrcsi_range_facet *f, const lrcsi_target *target,
 
 /* Adds a convex piece as a fan of triangles from its first corner. Returns a bound on the error of
    its area. */
-static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_target *target,
-                      const lrcsi_clip_polygon *piece, double range_err)
+static double profile_add_piece(profile_run *run, const lrcsi_range_facet *f,
+                                const lrcsi_target *target, const lrcsi_clip_polygon *piece,
+                                double range_err)
 {
     double range[3]; /* of corners 0, i - 1 and i */
     double normal[3][3] = {{0}};
@@ -192,8 +193,8 @@ static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_
 
 /* Adds the visible pieces of a facet, and returns the area D of part (2). On a convex surface
    fronts are visible without clipping, except those at grazing incidence. */
-static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
-                         const lrcsi_incidence *incidence, lrcsi_occlusion *o)
+static double profile_add_pieces(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
+                                 const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
@@ -216,7 +217,7 @@ static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
         double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err +
                            101 * LRCSI_U * target->reach * slope;
         if (o->undecided) {
-            area_err += fan_add(run, f, target, &o->single.piece, range_err);
+            area_err += profile_add_piece(run, f, target, &o->single.piece, range_err);
         } else {
             lrcsi_range_add_triangle(&run->bins, f, incidence->projected, f->range, normal,
                                      corner_err);
@@ -234,7 +235,7 @@ static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
 }
 
 /* Adds a facet that reflects. */
-static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion *o)
+static void profile_add_facet(profile_run *run, uint32_t facet, lrcsi_occlusion *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
     lrcsi_visible_area whole = lrcsi_visible_area_exact(incidence.projected);
@@ -256,7 +257,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
     }
     facet_ranges(run, facet, &f);
     double additions = run->bins.additions;
-    double uncertain_area = pieces_add(run, &f, facet, &incidence, o);
+    double uncertain_area = profile_add_pieces(run, &f, facet, &incidence, o);
     for (uint32_t i = f.first; uncertain_area > 0 && i <= f.last; i++) {
         run->bins.bin[i].bound += f.upper_bound * uncertain_area;
         run->bins.additions++;
@@ -307,7 +308,7 @@ static double fraction_between(const double corner[3], double from, double to)
       of the two values, because the difference of two numbers >= 0 is at most the larger one. With
       weights that depend on range the difference may become the sum, at most twice the larger
       one. */
-static void tessellation_add_error(profile_run *run, uint32_t facet)
+static void profile_add_tessellation(profile_run *run, uint32_t facet)
 {
     lrcsi_range_facet f;
     lrcsi_range_facet other;
@@ -419,8 +420,8 @@ static int bins_number(profile_run *run)
     return LRCS_OK;
 }
 
-/* Makes what curved shapes need besides the classification, room for the visible areas of all facets
-   and the proximity band; and what curved normals need, the context of their integrals. */
+/* Makes what curved shapes need besides the classification, room for the visible areas of all
+   facets and the proximity band; and what curved normals need, the context of their integrals. */
 static int curved_make(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
@@ -473,7 +474,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
             lrcsi_view_casts(view, facet)) {
-            facet_add_profile(run, facet, o);
+            profile_add_facet(run, facet, o);
         }
     }
     if (status != LRCS_OK || !p->has_curved_shapes || !lrcsi_tessellation_known(p, &run->plan)) {
@@ -484,7 +485,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {
-            tessellation_add_error(run, facet);
+            profile_add_tessellation(run, facet);
         }
     }
     return status;

@@ -63,11 +63,11 @@
 #include "optics/reflect.h"
 
 #define PATCH_AREA_ERR (512 * LRCSI_U)
-/* Heuristics, which affect the time and the size of remainders, which are part of the bound whatever
-   they are: the remainder that a rule should have, relative to F in the middle of the patch, unless
-   it is negligible (lrcsi_patches); the remainder, relative to the mean, above which the mean is
-   not used, unless it is negligible; the largest number of pieces into which a patch is divided in
-   each variable. */
+/* Heuristics, which affect the time and the size of remainders, which are part of the bound
+   whatever they are: the remainder that a rule should have, relative to F in the middle of the
+   patch, unless it is negligible (lrcsi_patches); the remainder, relative to the mean, above which
+   the mean is not used, unless it is negligible; the largest number of pieces into which a patch is
+   divided in each variable. */
 #define REMAINDER_TARGET 0x1p-26
 #define REMAINDER_MAX    0x1p-10
 #define PIECES_MAX       4
