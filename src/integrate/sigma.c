@@ -145,7 +145,8 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     }
     if (status == LRCS_OK) {
         run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
-        run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
+        run->outcome.method = run->plan.method;
+        run->outcome.reason = run->plan.reason;
         status = run_allocate(run);
     }
     if (status != LRCS_OK) {
@@ -162,9 +163,6 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
 
     /* 3. View coordinates, and which facets are undecided, unless samples alone decide. */
     status = lrcsi_view_project(work, &run->view);
-    if (status == LRCS_OK && run->plan.previews) {
-        run->cost = lrcsi_cost_count(&run->view);
-    }
     if (status == LRCS_OK && request->last >= LRCSI_SIGMA_CLASSIFY && !run->plan.samples_only) {
         status = lrcsi_sigma_classify(run, &run->meter);
     }
@@ -174,18 +172,22 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
 
     /* 4. Visible areas and the sum over them, attempt by attempt, until an answer is accepted or no
        other attempt would improve it. */
-    lrcsi_attempts attempts = {.last = {.method = LRCS_METHOD_AUTO}};
+    lrcsi_attempts attempts;
     lrcsi_attempt *attempt = &attempts.last;
+    memset(&attempts, 0, sizeof attempts);
+    if (run->plan.previews) {
+        attempts.cost = lrcsi_cost_count(&run->view);
+    }
     lrcsi_progress_report(options->progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
     while (status == LRCS_OK && lrcsi_attempts_next(run, &attempts)) { /* which method, how fine */
-        status = lrcsi_sigma_search(run, attempt);                     /* visible areas */
+        status = lrcsi_sigma_search(run, &attempts);                   /* visible areas */
         if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
             request->last == LRCSI_SIGMA_SUM) {
             lrcsi_sigma_sum(run, &attempt->meter);
         }
         lrcsi_sigma_search_end(run, attempt);
     }
-    lrcsi_sigma_release_decisions(run);
+    lrcsi_sigma_release_decisions(run, &attempts);
     return status;
 }
 

@@ -91,7 +91,7 @@ static lrcsi_attempt attempt_raster(const lrcsi_sigma *run, uint32_t size, const
 static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
     const lrcsi_attempt *last = &attempts->last;
-    const lrcsi_cost *cost = &run->cost;
+    const lrcsi_cost *cost = &attempts->cost;
     const int any = run->request.options->accept == LRCS_ACCEPT_ANY;
     if (last->method == LRCS_METHOD_AUTO) { /* 1 */
         attempts->size =

@@ -41,13 +41,9 @@ typedef struct lrcsi_sigma {
     lrcsi_meter meter;        /* limit on the steps of the visibility computation */
     lrcsi_clear_shapes clear; /* those evaluated by their closed forms: method auto only */
     lrcsi_plan plan;          /* is not changed once it is made */
-    lrcsi_cost cost;          /* if the plan has previews */
     int classified;           /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
     lrcsi_proximity_band band;
-    int decided; /* decisions are made: by the first raster, for all of them */
-    lrcsi_decisions decisions;
-    size_t decisions_mark; /* of the work area before decisions, which are the last item in it */
     lrcsi_visible_area *visible;           /* [facet_count]; NULL: the plan implies all areas */
     const unsigned char *answer;           /* as in lrcsi_areas */
     lrcsi_moment *moment_memory;           /* [facet_count]; NULL: moments are not wanted */
@@ -70,7 +66,7 @@ enum lrcsi_attempt_end {
 
 /* An attempt to find visible areas whose sum is accepted. */
 typedef struct lrcsi_attempt {
-    int method;         /* LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER; AUTO: before the first one */
+    int method;         /* LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER; AUTO (0): there was none */
     const char *reason; /* why this method */
     double limit_ns;    /* the time that clipping may take, as estimated; HUGE_VAL: no limit */
     uint32_t size;      /* of a raster */
@@ -81,12 +77,18 @@ typedef struct lrcsi_attempt {
     size_t mark;        /* of the work area, before what an abandoned attempt leaves in it */
 } lrcsi_attempt;
 
-/* The attempts of a run so far: what the choice of the next one depends on. */
+/* The attempts of a run so far. Before the first: zeros, and the cost. */
 typedef struct lrcsi_attempts {
-    lrcsi_attempt last;
+    lrcsi_attempt last; /* or the current one */
+    /* What the choice of the next one depends on: */
+    lrcsi_cost cost;     /* if the plan has previews */
     uint32_t size;       /* of the next raster */
     uint32_t rasters;    /* chosen so far */
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
+    /* What rasters share whose areas are proved: */
+    int decided; /* decisions are made, and are the last item in the work area */
+    lrcsi_decisions decisions;
+    size_t mark; /* of the work area before them */
 } lrcsi_attempts;
 
 /* The size of the finest raster. A heuristic: a finer one would improve the bound too little for
@@ -95,9 +97,9 @@ typedef struct lrcsi_attempts {
 
 /* --- sigma_attempt.c -------------------------------------------------------------------------- */
 
-/* Chooses the next attempt. Given: *attempts, zeros before the first; run->outcome, which has the
-   sum of the last one. Returned: 1 with attempts->last, or 0 if the answer is accepted or no other
-   attempt would improve it. */
+/* Chooses the next attempt. Given: *attempts; run->outcome, which has the sum of the last one.
+   Returned: 1 with attempts->last, or 0 if the answer is accepted or no other attempt would improve
+   it. */
 int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* --- sigma_search.c --------------------------------------------------------------------------- */
@@ -106,17 +108,17 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
    Status: as lrcs_sigma_run. */
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
 
-/* Makes an attempt: finds visible areas. Returned: attempt->end and, if they were found, the areas
-   and run->outcome, without its total. Status: LRCS_OK, however the attempt ended; others as
-   lrcs_sigma_run. */
-int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempt *attempt);
+/* Makes the attempt attempts->last: finds visible areas. Returned: how it ended and, if they were
+   found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended; others
+   as lrcs_sigma_run. */
+int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* Ends an attempt after the sum over its areas: its steps count as the run's, and it is abandoned
    if it has spent those of its limit. */
 void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt);
 
 /* Releases the memory that rasters share: before other memory is taken that is to stay. */
-void lrcsi_sigma_release_decisions(lrcsi_sigma *run);
+void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* --- sigma_sum.c ------------------------------------------------------------------------------ */
 

@@ -23,11 +23,11 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     return status;
 }
 
-void lrcsi_sigma_release_decisions(lrcsi_sigma *run)
+void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
-    if (run->decided) {
-        run->work->used = run->decisions_mark;
-        run->decided = 0;
+    if (attempts->decided) {
+        run->work->used = attempts->mark;
+        attempts->decided = 0;
     }
 }
 
@@ -53,7 +53,8 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Clips within the limit of an attempt. What an abandoned or refused attempt leaves in the work
    area is released by lrcsi_sigma_search_end, except a classification that is complete. */
-static void find_by_limited_clipping(lrcsi_sigma *run, lrcsi_attempt *attempt)
+static void find_by_limited_clipping(lrcsi_sigma *run, const lrcsi_cost *cost,
+                                     lrcsi_attempt *attempt)
 {
     const int classified = run->classified;
     attempt->end = LRCSI_ATTEMPT_ABANDONED;
@@ -62,7 +63,7 @@ static void find_by_limited_clipping(lrcsi_sigma *run, lrcsi_attempt *attempt)
         return;
     }
     attempt->mark = run->work->used;
-    if (lrcsi_cost_clip(&run->cost, run->classification.undecided_count) > attempt->limit_ns) {
+    if (lrcsi_cost_clip(cost, run->classification.undecided_count) > attempt->limit_ns) {
         attempt->end = LRCSI_ATTEMPT_REFUSED;
     } else if (find_by_clipping(run, &attempt->meter) == LRCS_OK && !attempt->meter.spent) {
         attempt->end = LRCSI_ATTEMPT_FOUND;
@@ -72,20 +73,21 @@ static void find_by_limited_clipping(lrcsi_sigma *run, lrcsi_attempt *attempt)
 /* Draws one raster of the attempt's size, or of half of it, a quarter and so on until it fits into
    the work area. Areas are taken from its samples alone, or from what is proved of each facet and,
    where that decides nothing, from samples. */
-static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempt *attempt)
+static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
+    lrcsi_attempt *attempt = &attempts->last;
     lrcs_progress *progress = run->request.options->progress;
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
     int undecided = 0;
     int status = LRCS_OK;
-    if (!attempt->samples_only && !run->decided) {
+    if (!attempt->samples_only && !attempts->decided) {
         status = lrcsi_sigma_classify(run, &attempt->meter);
-        run->decisions_mark = run->work->used;
+        attempts->mark = run->work->used;
         status = status == LRCS_OK
-                     ? lrcsi_decisions_make(&run->classification, run->work, &run->decisions)
+                     ? lrcsi_decisions_make(&run->classification, run->work, &attempts->decisions)
                      : status;
-        run->decided = status == LRCS_OK;
+        attempts->decided = status == LRCS_OK;
         if (status != LRCS_OK) {
             return status;
         }
@@ -95,11 +97,12 @@ static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempt *attempt)
     size_t mark = run->work->used;
     uint32_t size = attempt->size;
     do {
-        status = attempt->samples_only
-                     ? lrcsi_preview_make(&run->view, size, progress, run->work, run->visible,
-                                          &undecided)
-                     : lrcsi_visible_areas_from_samples(&run->decisions, size, progress, run->work,
-                                                        &raster, run->visible, &undecided);
+        status =
+            attempt->samples_only
+                ? lrcsi_preview_make(&run->view, size, progress, run->work, run->visible,
+                                     &undecided)
+                : lrcsi_visible_areas_from_samples(&attempts->decisions, size, progress, run->work,
+                                                   &raster, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
         size /= 2;
@@ -109,18 +112,19 @@ static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempt *attempt)
     return status;
 }
 
-int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempt *attempt)
+int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
+    lrcsi_attempt *attempt = &attempts->last;
     run->outcome = (lrcsi_outcome){.method = attempt->method,
                                    .reason = attempt->reason,
                                    .flags = attempt->fallback ? LRCS_FLAG_MEMORY_FALLBACK : 0u};
     if (attempt->method == LRCS_METHOD_ZBUFFER) {
-        return find_by_drawing(run, attempt);
+        return find_by_drawing(run, attempts);
     }
-    lrcsi_sigma_release_decisions(run);
+    lrcsi_sigma_release_decisions(run, attempts);
     attempt->mark = run->work->used;
     if (attempt->limit_ns < HUGE_VAL) {
-        find_by_limited_clipping(run, attempt);
+        find_by_limited_clipping(run, &attempts->cost, attempt);
         return LRCS_OK;
     }
     int status = lrcsi_sigma_classify(run, &attempt->meter);

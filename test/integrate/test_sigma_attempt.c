@@ -148,11 +148,11 @@ static void begin_preview(int accept, double times)
     options.tolerance = 0.01;
     options.accept = accept;
     run.plan.previews = run.plan.samples_only = 1;
-    run.cost = (lrcsi_cost){.facets = 1e4, .casting = 1e4, .borders = 1, .overdraw = 2};
-    uint32_t size = lrcsi_cost_size(&run.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
-    double without = lrcsi_cost_clip(&run.cost, 0);
-    double each = lrcsi_cost_clip(&run.cost, 1) - without;
-    double undecided = (times * lrcsi_cost_draw(&run.cost, size) - without) / each;
+    attempts.cost = (lrcsi_cost){.facets = 1e4, .casting = 1e4, .borders = 1, .overdraw = 2};
+    uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
+    double without = lrcsi_cost_clip(&attempts.cost, 0);
+    double each = lrcsi_cost_clip(&attempts.cost, 1) - without;
+    double undecided = (times * lrcsi_cost_draw(&attempts.cost, size) - without) / each;
     assert_true(undecided >= 1);
     run.classified = 1;
     run.classification.undecided_count = (uint32_t)undecided;
@@ -162,15 +162,15 @@ static void clipping_comes_first_if_it_costs_little_more_than_a_raster(void **st
 {
     (void)state;
     begin_preview(LRCS_ACCEPT_ESTIMATE, 1.4);
-    uint32_t size = lrcsi_cost_size(&run.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
-    double limit = 1.5 * lrcsi_cost_draw(&run.cost, size);
+    uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
+    double limit = 1.5 * lrcsi_cost_draw(&attempts.cost, size);
     check_clipping(limit);
     assert_true(attempts.last.meter.limit == lrcsi_cost_steps(limit));
     end_with(1);
     check_ended();
 
     begin_preview(LRCS_ACCEPT_ESTIMATE, 1.6);
-    check_raster(lrcsi_cost_first(&run.cost, size));
+    check_raster(lrcsi_cost_first(&attempts.cost, size));
     assert_true(attempts.last.samples_only);
     assert_string_equal(attempts.last.reason, "a raster is estimated to cost less than clipping");
     end_with(0.005);
@@ -194,11 +194,11 @@ static void abandoned_clipping_is_tried_again_only_for_four_times_as_long(void *
     for (int end = LRCSI_ATTEMPT_ABANDONED; end <= LRCSI_ATTEMPT_REFUSED; end++) {
         int abandoned = end == LRCSI_ATTEMPT_ABANDONED;
         begin_preview(LRCS_ACCEPT_ESTIMATE, 1.4);
-        uint32_t size = lrcsi_cost_size(&run.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
-        double limit = 1.5 * lrcsi_cost_draw(&run.cost, size);
+        uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
+        double limit = 1.5 * lrcsi_cost_draw(&attempts.cost, size);
         check_clipping(limit);
         attempts.last.end = end;
-        check_raster(lrcsi_cost_first(&run.cost, size));
+        check_raster(lrcsi_cost_first(&attempts.cost, size));
         assert_string_equal(attempts.last.reason,
                             abandoned ? "clipping was begun, and took longer than a raster"
                                       : "a raster is estimated to cost less than clipping");
@@ -206,7 +206,8 @@ static void abandoned_clipping_is_tried_again_only_for_four_times_as_long(void *
             uint32_t drawn = attempts.last.size;
             end_with(0.011);
             assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
-            double next_limit = 2.5 * lrcsi_cost_draw(&run.cost, 64 * (drawn * 3 / 2 / 64 + 1));
+            double next_limit =
+                2.5 * lrcsi_cost_draw(&attempts.cost, 64 * (drawn * 3 / 2 / 64 + 1));
             int again = !abandoned || next_limit >= 4 * limit;
             assert_int_equal(attempts.last.method, again ? LRCS_METHOD_EXACT : LRCS_METHOD_ZBUFFER);
             if (again) {
@@ -222,7 +223,8 @@ static void any_answer_is_the_coarsest_raster(void **state)
 {
     (void)state;
     begin_preview(LRCS_ACCEPT_ANY, 1);
-    check_raster(lrcsi_cost_first(&run.cost, lrcsi_cost_size(&run.cost, 1, LRCSI_SIGMA_SIZE_MAX)));
+    check_raster(
+        lrcsi_cost_first(&attempts.cost, lrcsi_cost_size(&attempts.cost, 1, LRCSI_SIGMA_SIZE_MAX)));
     assert_string_equal(attempts.last.reason, "planned");
     end_with(1);
     check_ended();
