@@ -173,7 +173,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     /* 4. Visible areas and the sum over them, attempt by attempt, until an answer is accepted or no
        other attempt would improve it. */
     lrcsi_attempts attempts;
-    lrcsi_attempt *attempt = &attempts.last;
+    lrcsi_attempt *attempt = &attempts.current;
     memset(&attempts, 0, sizeof attempts);
     if (run->plan.previews) {
         attempts.cost = lrcsi_cost_count(&run->view);

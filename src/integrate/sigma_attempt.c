@@ -90,7 +90,7 @@ static lrcsi_attempt attempt_raster(const lrcsi_sigma *run, uint32_t size, const
    3. The raster; the first one is cheap. */
 static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
-    const lrcsi_attempt *last = &attempts->last;
+    const lrcsi_attempt *last = &attempts->current;
     const lrcsi_cost *cost = &attempts->cost;
     const int any = run->request.options->accept == LRCS_ACCEPT_ANY;
     if (last->method == LRCS_METHOD_AUTO) { /* 1 */
@@ -133,30 +133,30 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
     const lrcs_run_options *options = run->request.options;
     const lrcsi_plan *plan = &run->plan;
-    const lrcsi_attempt last = attempts->last;
+    const lrcsi_attempt last = attempts->current;
     const int drawn = last.method == LRCS_METHOD_ZBUFFER;
     if (last.method == LRCS_METHOD_EXACT && last.end == LRCSI_ATTEMPT_FOUND) {
         return 0;
     }
     if (last.end == LRCSI_ATTEMPT_NO_MEMORY) { /* 1 */
-        attempts->last = attempt_raster(run, plan->size, "too little memory for clipping");
-        attempts->last.samples_only = 0;
-        attempts->last.fallback = 1;
+        attempts->current = attempt_raster(run, plan->size, "too little memory for clipping");
+        attempts->current.samples_only = 0;
+        attempts->current.fallback = 1;
     } else if (last.method == LRCS_METHOD_AUTO && plan->method == LRCS_METHOD_EXACT) {
-        attempts->last = attempt_clipping(run, HUGE_VAL, plan->reason);
+        attempts->current = attempt_clipping(run, HUGE_VAL, plan->reason);
     } else if (drawn && raster_ends(run, last.samples_only)) { /* 3 */
         if (options->method != LRCS_METHOD_AUTO || last.fallback || run->meter.spent ||
             !(lrcsi_sigma_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
             return 0;
         }
-        attempts->last =
+        attempts->current =
             attempt_clipping(run, HUGE_VAL,
                              options->resolution != 0 ? "the requested raster misses the tolerance"
                                                       : "no raster's estimate meets the tolerance");
     } else if (plan->previews) { /* 2 */
-        attempts->last = preview_next(run, attempts);
+        attempts->current = preview_next(run, attempts);
     } else {
-        attempts->last = attempt_raster(run, drawn ? next_size(run) : plan->size, plan->reason);
+        attempts->current = attempt_raster(run, drawn ? next_size(run) : plan->size, plan->reason);
     }
     return 1;
 }

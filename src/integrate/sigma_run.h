@@ -79,7 +79,7 @@ typedef struct lrcsi_attempt {
 
 /* The attempts of a run so far. Before the first: zeros, and the cost. */
 typedef struct lrcsi_attempts {
-    lrcsi_attempt last; /* or the current one */
+    lrcsi_attempt current; /* between attempts: the last one */
     /* What the choice of the next one depends on: */
     lrcsi_cost cost;     /* if the plan has previews */
     uint32_t size;       /* of the next raster */
@@ -98,8 +98,8 @@ typedef struct lrcsi_attempts {
 /* --- sigma_attempt.c -------------------------------------------------------------------------- */
 
 /* Chooses the next attempt. Given: *attempts; run->outcome, which has the sum of the last one.
-   Returned: 1 with attempts->last, or 0 if the answer is accepted or no other attempt would improve
-   it. */
+   Returned: 1 with attempts->current, or 0 if the answer is accepted or no other attempt would
+   improve it. */
 int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* --- sigma_search.c --------------------------------------------------------------------------- */
@@ -108,9 +108,9 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
    Status: as lrcs_sigma_run. */
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
 
-/* Makes the attempt attempts->last: finds visible areas. Returned: how it ended and, if they were
-   found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended; others
-   as lrcs_sigma_run. */
+/* Makes the attempt attempts->current: finds visible areas. Returned: how it ended and, if they
+   were found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended;
+   others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* Ends an attempt after the sum over its areas: its steps count as the run's, and it is abandoned

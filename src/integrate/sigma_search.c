@@ -75,7 +75,7 @@ static void find_by_limited_clipping(lrcsi_sigma *run, const lrcsi_cost *cost,
    where that decides nothing, from samples. */
 static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
-    lrcsi_attempt *attempt = &attempts->last;
+    lrcsi_attempt *attempt = &attempts->current;
     lrcs_progress *progress = run->request.options->progress;
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
@@ -114,7 +114,7 @@ static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempts *attempts)
 
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
-    lrcsi_attempt *attempt = &attempts->last;
+    lrcsi_attempt *attempt = &attempts->current;
     run->outcome = (lrcsi_outcome){.method = attempt->method,
                                    .reason = attempt->reason,
                                    .flags = attempt->fallback ? LRCS_FLAG_MEMORY_FALLBACK : 0u};

@@ -21,15 +21,15 @@ static void begin(int method, int planned)
     run.meter.limit = UINT64_MAX;
     run.plan = (lrcsi_plan){.method = planned, .size = 512, .reason = "planned"};
     run.classification.undecided_count = 1;
-    attempts = (lrcsi_attempts){.last = {.method = LRCS_METHOD_AUTO}};
+    attempts = (lrcsi_attempts){.current = {.method = LRCS_METHOD_AUTO}};
 }
 
 /* The last attempt ends with sigma = 1 and this bound, which is all visibility. */
 static void end_with(double visibility)
 {
-    attempts.last.end = LRCSI_ATTEMPT_FOUND;
-    run.outcome = (lrcsi_outcome){.method = attempts.last.method,
-                                  .size = attempts.last.size,
+    attempts.current.end = LRCSI_ATTEMPT_FOUND;
+    run.outcome = (lrcsi_outcome){.method = attempts.current.method,
+                                  .size = attempts.current.size,
                                   .total = {.glint = 1, .visibility = visibility}};
     run.outcome.total.error_estimate = visibility;
 }
@@ -37,15 +37,15 @@ static void end_with(double visibility)
 static void check_clipping(double limit_ns)
 {
     assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
-    assert_int_equal(attempts.last.method, LRCS_METHOD_EXACT);
-    check_same(attempts.last.limit_ns, limit_ns);
+    assert_int_equal(attempts.current.method, LRCS_METHOD_EXACT);
+    check_same(attempts.current.limit_ns, limit_ns);
 }
 
 static void check_raster(uint32_t size)
 {
     assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
-    assert_int_equal(attempts.last.method, LRCS_METHOD_ZBUFFER);
-    assert_int_equal(attempts.last.size, size);
+    assert_int_equal(attempts.current.method, LRCS_METHOD_ZBUFFER);
+    assert_int_equal(attempts.current.size, size);
 }
 
 static void check_ended(void)
@@ -60,7 +60,7 @@ static void nothing_follows_clipping(void **state)
     (void)state;
     begin(LRCS_METHOD_EXACT, LRCS_METHOD_EXACT);
     check_clipping(HUGE_VAL);
-    assert_string_equal(attempts.last.reason, "planned");
+    assert_string_equal(attempts.current.reason, "planned");
     end_with(1); /* far from accepted */
     check_ended();
 }
@@ -73,9 +73,9 @@ static void where_memory_is_short_one_raster_takes_the_place_of_clipping(void **
         begin(method[i], LRCS_METHOD_EXACT);
         run.plan.samples_only = i; /* in vain: there is a classification */
         check_clipping(HUGE_VAL);
-        attempts.last.end = LRCSI_ATTEMPT_NO_MEMORY;
+        attempts.current.end = LRCSI_ATTEMPT_NO_MEMORY;
         check_raster(512);
-        assert_true(attempts.last.fallback && !attempts.last.samples_only);
+        assert_true(attempts.current.fallback && !attempts.current.samples_only);
         end_with(1);
         run.outcome.flags = LRCS_FLAG_MEMORY_FALLBACK;
         check_ended();
@@ -132,7 +132,8 @@ static void auto_clips_where_no_raster_is_accepted(void **state)
         run.meter.spent = i == 2;
         if (i == 0) {
             check_clipping(HUGE_VAL);
-            assert_string_equal(attempts.last.reason, "the requested raster misses the tolerance");
+            assert_string_equal(attempts.current.reason,
+                                "the requested raster misses the tolerance");
             end_with(1);
         }
         check_ended();
@@ -165,14 +166,15 @@ static void clipping_comes_first_if_it_costs_little_more_than_a_raster(void **st
     uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
     double limit = 1.5 * lrcsi_cost_draw(&attempts.cost, size);
     check_clipping(limit);
-    assert_true(attempts.last.meter.limit == lrcsi_cost_steps(limit));
+    assert_true(attempts.current.meter.limit == lrcsi_cost_steps(limit));
     end_with(1);
     check_ended();
 
     begin_preview(LRCS_ACCEPT_ESTIMATE, 1.6);
     check_raster(lrcsi_cost_first(&attempts.cost, size));
-    assert_true(attempts.last.samples_only);
-    assert_string_equal(attempts.last.reason, "a raster is estimated to cost less than clipping");
+    assert_true(attempts.current.samples_only);
+    assert_string_equal(attempts.current.reason,
+                        "a raster is estimated to cost less than clipping");
     end_with(0.005);
     check_ended();
 }
@@ -183,7 +185,7 @@ static void limited_clipping_takes_no_more_steps_than_the_run_has_left(void **st
     begin_preview(LRCS_ACCEPT_ESTIMATE, 1.4);
     run.meter = (lrcsi_meter){.limit = 1000, .taken = 900};
     assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
-    assert_true(attempts.last.meter.limit == 1000 && attempts.last.meter.taken == 900);
+    assert_true(attempts.current.meter.limit == 1000 && attempts.current.meter.taken == 900);
 }
 
 /* After an abandoned attempt a raster is drawn, and then more of them: clipping is tried again only
@@ -197,21 +199,22 @@ static void abandoned_clipping_is_tried_again_only_for_four_times_as_long(void *
         uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
         double limit = 1.5 * lrcsi_cost_draw(&attempts.cost, size);
         check_clipping(limit);
-        attempts.last.end = end;
+        attempts.current.end = end;
         check_raster(lrcsi_cost_first(&attempts.cost, size));
-        assert_string_equal(attempts.last.reason,
+        assert_string_equal(attempts.current.reason,
                             abandoned ? "clipping was begun, and took longer than a raster"
                                       : "a raster is estimated to cost less than clipping");
         for (int rasters = 1;; rasters++) {
-            uint32_t drawn = attempts.last.size;
+            uint32_t drawn = attempts.current.size;
             end_with(0.011);
             assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
             double next_limit =
                 2.5 * lrcsi_cost_draw(&attempts.cost, 64 * (drawn * 3 / 2 / 64 + 1));
             int again = !abandoned || next_limit >= 4 * limit;
-            assert_int_equal(attempts.last.method, again ? LRCS_METHOD_EXACT : LRCS_METHOD_ZBUFFER);
+            assert_int_equal(attempts.current.method,
+                             again ? LRCS_METHOD_EXACT : LRCS_METHOD_ZBUFFER);
             if (again) {
-                check_same(attempts.last.limit_ns, next_limit);
+                check_same(attempts.current.limit_ns, next_limit);
                 assert_int_equal(rasters > 1, abandoned);
                 break;
             }
@@ -225,7 +228,7 @@ static void any_answer_is_the_coarsest_raster(void **state)
     begin_preview(LRCS_ACCEPT_ANY, 1);
     check_raster(
         lrcsi_cost_first(&attempts.cost, lrcsi_cost_size(&attempts.cost, 1, LRCSI_SIGMA_SIZE_MAX)));
-    assert_string_equal(attempts.last.reason, "planned");
+    assert_string_equal(attempts.current.reason, "planned");
     end_with(1);
     check_ended();
 }
@@ -240,7 +243,7 @@ static void a_preview_whose_depths_are_undecided_leads_to_clipping(void **state)
     run.outcome.total.visibility = 1;
     run.outcome.flags = LRCS_FLAG_DEPTH_UNDECIDED;
     check_clipping(HUGE_VAL);
-    assert_string_equal(attempts.last.reason, "no raster's estimate meets the tolerance");
+    assert_string_equal(attempts.current.reason, "no raster's estimate meets the tolerance");
 }
 
 int main(void)
