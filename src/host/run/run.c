@@ -183,7 +183,8 @@ int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pos
     lrcsi_host_attempt attempt =
         lrcsi_host_attempt_make(&area, sigma_bytes(scene, options, NULL, &area));
     while (lrcsi_host_attempt_next(&attempt, error)) {
-        attempt.status = lrcsi_sigma_run_until(scene->prepared, pose, options, stage, &attempt.work);
+        attempt.status =
+            lrcsi_sigma_run_until(scene->prepared, pose, options, stage, &attempt.work);
     }
     lrcsi_host_area_free(&area);
     return run_fail(error, attempt.status, "sigma");
