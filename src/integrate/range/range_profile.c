@@ -58,6 +58,7 @@
 
 #include "base/constant.h"
 #include "base/dd.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/sum.h"
 #include "base/work.h"
@@ -317,7 +318,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     facet_ranges(run, facet, &f);
     facet_ranges(run, error.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
-    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * LRCSI_OUTWARD(4) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     int order[3];
     lrcsi_range_order(f.range, order);

@@ -34,6 +34,7 @@
 #include <string.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells/cells_block.h"
@@ -369,7 +370,7 @@ static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double r
         double high[3];
         lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
         *moment = (lrcsi_moment){.error = err * lrcsi_max(high[0] - low[0], high[1] - low[1]) *
-                                          (1 + 4 * LRCSI_U)};
+                                          LRCSI_OUTWARD(4)};
     }
 }
 

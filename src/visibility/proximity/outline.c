@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/outward.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
@@ -23,9 +24,6 @@
 #define OPENING_COS_MIN 1e-6
 /* The square root of 2, rounded up. */
 #define ROOT_2 1.4143
-/* More than the relative rounding error of a sum of areas: POINTS terms of some 10 operations each.
- */
-#define ROUNDING (1 + 0x1p-40)
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -243,7 +241,7 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     }
     areas.width = ROOT_2 * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    areas.gain = (areas.gain + err * areas.width) * ROUNDING;
-    areas.loss = (areas.loss + err * areas.width) * ROUNDING;
+    areas.gain = (areas.gain + err * areas.width) * LRCSI_OUTWARD_SUM;
+    areas.loss = (areas.loss + err * areas.width) * LRCSI_OUTWARD_SUM;
     return areas;
 }
