@@ -228,13 +228,13 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
     double unit = a->frame.unit;
     double err = unit * (a->border_area + found->uncertainty + found->visible_err +
                          64 * LRCSI_U * (found->visible + a->perhaps_visible));
-    double seen = a->hidden || a->perhaps_hidden > 0
-                      ? lrcsi_min(whole, unit * (found->visible + a->perhaps_visible))
-                      : whole;
+    double visible = a->hidden || a->perhaps_hidden > 0
+                         ? lrcsi_min(whole, unit * (found->visible + a->perhaps_visible))
+                         : whole;
     err += a->frame.needle ? incidence.error * whole : 0;
     moment_close(a, err);
-    return (lrcsi_visible_area){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
-                                lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
+    return (lrcsi_visible_area){visible, lrcsi_max(0, visible - unit * a->perhaps_visible - err),
+                                lrcsi_min(whole, visible + unit * a->perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
