@@ -27,7 +27,7 @@
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;
-    lrcsi_events events;
+    lrcsi_events events; /* nearest first, by their boxes */
     lrcsi_event_search
         search;        /* has the boxes of undecided facets, and of others that were tested */
     signed char *cast; /* facet: its facing if it can hide others, otherwise 0 */
