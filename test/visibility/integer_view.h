@@ -160,4 +160,61 @@ static inline void scene_tangle(uint64_t *state, uint32_t vertices, uint32_t cou
     }
 }
 
+/* --- event edges ------------------------------------------------------------------------------ */
+
+/* What the definition says of an edge. */
+typedef struct edge_count {
+    uint32_t count, left, right, forward;
+} edge_count;
+
+/* The facets with both vertices: those that can hide something or, of a part, all. */
+static inline edge_count count_facets(uint32_t low, uint32_t high, uint32_t part)
+{
+    edge_count n = {0, 0, 0, 0};
+    int64_t a[3];
+    int64_t b[3];
+    vertex_at(low, a);
+    vertex_at(high, b);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        const uint32_t *corner = scene.facet[f].corner;
+        if (part == LRCS_NONE ? !casts_exactly(f) : scene.part_of[f] != part) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            uint32_t from = corner[k];
+            uint32_t to = corner[(k + 1) % 3];
+            if ((from == low && to == high) || (from == high && to == low)) {
+                int64_t apex[3];
+                vertex_at(corner[(k + 2) % 3], apex);
+                int side = sign_of(determinant(a, b, apex, laser));
+                n.count++;
+                n.left += side > 0;
+                n.right += side < 0;
+                n.forward += from == low;
+            }
+        }
+    }
+    return n;
+}
+
+static inline int is_event(const edge_count *n, uint32_t part)
+{
+    int opposite = n->count == 2 && n->left == 1 && n->right == 1;
+    return n->count > 0 && !(opposite && (part == LRCS_NONE || n->forward == 1));
+}
+
+/* Divides a scene into two parts, of the first so many facets and of the others. */
+static inline void scene_divide(uint32_t first, lrcs_part part[2])
+{
+    part[0] = part[1] = scene.part;
+    part[0].facet_count = first;
+    part[1].first_facet = first;
+    part[1].facet_count = scene.scene.facet_count - first;
+    for (uint32_t f = first; f < scene.scene.facet_count; f++) {
+        scene.part_of[f] = 1;
+    }
+    scene.scene.part = part;
+    scene.scene.part_count = 2;
+}
+
 #endif

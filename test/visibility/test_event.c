@@ -5,47 +5,6 @@
 
 #include "integer_view.h"
 
-/* What the definition says of an edge. */
-typedef struct edge_count {
-    uint32_t count, left, right, forward;
-} edge_count;
-
-/* The facets with both vertices: those that can hide something or, of a part, all. */
-static edge_count count_facets(uint32_t low, uint32_t high, uint32_t part)
-{
-    edge_count n = {0, 0, 0, 0};
-    int64_t a[3];
-    int64_t b[3];
-    vertex_at(low, a);
-    vertex_at(high, b);
-    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        const uint32_t *corner = scene.facet[f].corner;
-        if (part == LRCS_NONE ? !casts_exactly(f) : scene.part_of[f] != part) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            uint32_t from = corner[k];
-            uint32_t to = corner[(k + 1) % 3];
-            if ((from == low && to == high) || (from == high && to == low)) {
-                int64_t apex[3];
-                vertex_at(corner[(k + 2) % 3], apex);
-                int side = sign_of(determinant(a, b, apex, laser));
-                n.count++;
-                n.left += side > 0;
-                n.right += side < 0;
-                n.forward += from == low;
-            }
-        }
-    }
-    return n;
-}
-
-static int is_event(const edge_count *n, uint32_t part)
-{
-    int opposite = n->count == 2 && n->left == 1 && n->right == 1;
-    return n->count > 0 && !(opposite && (part == LRCS_NONE || n->forward == 1));
-}
-
 static void check_edge(uint32_t e, uint32_t part, unsigned kinds[3])
 {
     const lrcsi_edge *edge = &view.prepared->topology.edge[e];
@@ -71,14 +30,7 @@ static void edges_are_events_by_their_definition(void **state)
     for (int i = 0; i < 300; i++) {
         lrcs_part part[2];
         scene_tangle(&random, 8, 14);
-        part[0] = part[1] = scene.part;
-        part[0].facet_count = 7;
-        part[1].first_facet = part[1].facet_count = 7;
-        scene.scene.part = part;
-        scene.scene.part_count = 2;
-        for (uint32_t f = 7; f < 14; f++) {
-            scene.part_of[f] = 1;
-        }
+        scene_divide(7, part);
         look_along_any(&random);
         uint32_t listed = 0;
         for (uint32_t e = 0; e < view.prepared->topology.edge_count; e++) {
