@@ -160,6 +160,37 @@ static inline void scene_tangle(uint64_t *state, uint32_t vertices, uint32_t cou
     }
 }
 
+/* A surface of small facets over a square of n x n, at random heights, and above it separate
+   triangles of all sizes, each at a height of its own. */
+static inline void scene_terrain(uint64_t *state, uint32_t n, uint32_t triangles)
+{
+    scene_start(&scene);
+    for (uint32_t i = 0; i <= n; i++) {
+        for (uint32_t k = 0; k <= n; k++) {
+            scene_vertex(&scene, (double)i, (double)k, (double)integer_between(state, 0, 2));
+        }
+    }
+    for (uint32_t v = 0; v < n * (n + 1); v++) {
+        if (v % (n + 1) < n) {
+            scene_facet(&scene, v, v + n + 1, v + n + 2);
+            scene_facet(&scene, v, v + n + 2, v + 1);
+        }
+    }
+    for (uint32_t i = 0; i < triangles; i++) {
+        double x[3][3];
+        int size = (int)random_below(state, n) + 1;
+        int64_t low[2];
+        for (int k = 0; k < 2; k++) {
+            low[k] = integer_between(state, 0, (int)n - size);
+        }
+        for (int k = 0; k < 9; k++) {
+            x[k / 3][k % 3] =
+                k % 3 == 2 ? 3.0 + i : (double)(low[k % 3] + integer_between(state, 0, size));
+        }
+        scene_triangle(&scene, x[0], x[1], x[2]);
+    }
+}
+
 /* --- event edges ------------------------------------------------------------------------------ */
 
 /* What the definition says of an edge. */
