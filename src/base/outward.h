@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Factors that round bounds outward. A bound is computed from given numbers by differences of two of
-   them, and from what is then not negative by sums, products, quotients and square roots. Each
+/* Factors that round bounds outward. A bound is computed from given numbers by differences of two
+   of them, and from what is then not negative by sums, products, quotients and square roots. Each
    operation may round it down: multiplied by one of these factors, the bound is at least what exact
    arithmetic gives.
 
    An exact result is at most (1 + u) times the rounded one. So after m roundings in sequence the
    exact bound is at most (1 + u)^m times the computed one, b, and the rounded product of b with a
    factor is at least factor b / (1 + u). 1 + n u is at least (1 + u)^(m + 1) for m <= n - 2, n <=
-   2^26. For n = 2 one rounding is covered as well: 2 u b is at least the distance from b to the next
-   larger number, and the product is not below that. */
+   2^26. For n = 2 one rounding is covered as well: 2 u b is at least the distance from b to the
+   next larger number, and the product is not below that. */
 #ifndef LRCSI_OUTWARD_H
 #define LRCSI_OUTWARD_H
 

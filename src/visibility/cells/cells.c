@@ -21,9 +21,9 @@
    5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
-      (visibility/cells/cells_cut.c; at the border of blocks: lrcsi_cells_charge_border; of cells that are
-      given up: lrcsi_cells_charge_all). An area is reported where its error is small enough; other
-      facets are left to visibility/cells/facet_cells.c.
+      (visibility/cells/cells_cut.c; at the border of blocks: lrcsi_cells_charge_border; of cells
+      that are given up: lrcsi_cells_charge_all). An area is reported where its error is small
+      enough; other facets are left to visibility/cells/facet_cells.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest
@@ -164,9 +164,9 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
 enum cut_choice { CUT_FOREGROUND, CUT_EDGES, CUT_ANY };
 
 /* The segment whose line divides the cell best, or NULL: of the segments of the foreground, of
-   edges, or of all. The score is the cell's width on the narrower side of the line, times the root of the
-   segment's extent in the cell. So cells shrink fast, few become long and narrow, and few are cut
-   where nothing changes. */
+   edges, or of all. The score is the cell's width on the narrower side of the line, times the root
+   of the segment's extent in the cell. So cells shrink fast, few become long and narrow, and few
+   are cut where nothing changes. */
 static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcsi_cell *cell,
                                              const lrcsi_clip_sides *s, int choice,
                                              const lrcsi_cells_surface *surface)
@@ -330,11 +330,11 @@ static double extent_of(const lrcs_prepared *p)
 
 /* The largest error at which a facet's area is accepted. It is the sum of two terms: 1e-12 of the
    projected area; and 1e-15 of the squared extent or, if as_single and if that is more,
-   SINGLE_FACTOR times the least error of the facet processed alone (visibility/cells/facet_cells.c): 52 u
-   of its diameter times its perimeter, and for each cut a strip 128 u of the diameter wide.
-   Needles, and facets with a diameter of twice the extent or more, are much more accurate alone:
-   for these there is only the first term, unless they represent a curved surface, from which they
-   differ by far more. */
+   SINGLE_FACTOR times the least error of the facet processed alone
+   (visibility/cells/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a
+   strip 128 u of the diameter wide. Needles, and facets with a diameter of twice the extent or
+   more, are much more accurate alone: for these there is only the first term, unless they represent
+   a curved surface, from which they differ by far more. */
 static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double projected,
                              int as_single)
 {
@@ -357,9 +357,9 @@ static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double pro
 
 /* Finishes the moment of a facet whose area is reported. What was added differs from the visible
    region by at most `err`, an area, and the rounding error of an area, times the distance `reach`
-   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly visible,
-   only what may be hidden, or visible, moves the moment from 0; its points are no farther from the
-   centroid than the largest difference of coordinates. */
+   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly
+   visible, only what may be hidden, or visible, moves the moment from 0; its points are no farther
+   from the centroid than the largest difference of coordinates. */
 static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double reach,
                           uint32_t facet, int partly, double err)
 {

@@ -28,8 +28,8 @@ typedef struct lrcsi_block_grid {
 size_t lrcsi_block_grid_need(const lrcs_prepared *prepared);
 
 /* Makes the blocks, and lists in each the event edges and the facets that can hide others, except
-   those that are proved to be hidden (visibility/cells/cells_cover.c). 0 if memory does not suffice, or
-   if the lists are too long. */
+   those that are proved to be hidden (visibility/cells/cells_cover.c). 0 if memory does not
+   suffice, or if the lists are too long. */
 int lrcsi_block_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
                           lrcs_work *work, lrcsi_block_grid *grid);
 

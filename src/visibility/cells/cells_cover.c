@@ -3,10 +3,10 @@
    behind it.
 
    Proof. P is the sample, x any other point of the cell in general position. "The path" is the
-   straight line from P to x. All statements exclude the strips that visibility/cells/cells_cut.c accounts
-   for. Facets that have been removed from the list are nowhere the nearest: at every point of the
-   cell that such a facet covers, a facet of the list is in front of it. (2) preserves this, and
-   facets that are hidden everywhere need not be listed in the first place.
+   straight line from P to x. All statements exclude the strips that visibility/cells/cells_cut.c
+   accounts for. Facets that have been removed from the list are nowhere the nearest: at every point
+   of the cell that such a facet covers, a facet of the list is in front of it. (2) preserves this,
+   and facets that are hidden everywhere need not be listed in the first place.
 
    (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along

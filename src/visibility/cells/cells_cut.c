@@ -11,11 +11,11 @@
    removes two triangles along the sides that it cuts, as high as the shape error grows by that cut.
 
    Segments at the border. Let w be the sum of the segment's error (`err`, `line_err`:
-   visibility/cells/cells_facet.c), 16 u times the largest coordinate of the block, and the shape error.
-   If the computed distance of a segment from the cell exceeds w, the segment does not meet the
-   cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part in
-   the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2 w
-   of its own line, with the cell on one side of that line. Let c be the distance of the sample P
+   visibility/cells/cells_facet.c), 16 u times the largest coordinate of the block, and the shape
+   error. If the computed distance of a segment from the cell exceeds w, the segment does not meet
+   the cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part
+   in the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2
+   w of its own line, with the cell on one side of that line. Let c be the distance of the sample P
    from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
    within 4 w of that line, and no farther along it from the segment than 4 w / c times the cell's
    diameter. That is below STRIP_OVERHANG w if c exceeds MAX_THIN times the perimeter. The

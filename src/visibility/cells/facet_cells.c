@@ -5,18 +5,18 @@
 
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
-   found exactly (visibility/uniform/crossing.h); the contacts of f; and the sides of facets in the plane of
-   f that hide it (visibility/cells/facet_cells_candidate.c). A sample finds which facets are in front of
-   f at a point P of a cell (visibility/cells/facet_cells_sample.c). Let x be any other point of the
-   cell.
+   found exactly (visibility/uniform/crossing.h); the contacts of f; and the sides of facets in the
+   plane of f that hide it (visibility/cells/facet_cells_candidate.c). A sample finds which facets
+   are in front of f at a point P of a cell (visibility/cells/facet_cells_sample.c). Let x be any
+   other point of the cell.
 
    (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
    visible: nothing changes on the way from P to x.
 
    (2) If a facet is in front of f at P, consider its component: all facets connected with it by
-   edges that are not events (visibility/uniform/classify.h). If no segment is left at which the component
-   ends or meets f, the component continues on the way from P to x, and stays in front of f, because
-   it would have to intersect f to pass behind it. So f is hidden in all of the cell.
+   edges that are not events (visibility/uniform/classify.h). If no segment is left at which the
+   component ends or meets f, the component continues on the way from P to x, and stays in front of
+   f, because it would have to intersect f to pass behind it. So f is hidden in all of the cell.
 
    (3) Otherwise the cell is cut along a segment of the component that has the fewest segments left.
 
@@ -25,18 +25,18 @@
    segments like all others. Near the line of the contact it remains undecided whether the facet is
    in front.
 
-   Error. Lines, strips and cells are those of visibility/cells/cells_cut.c, in coordinates from a corner
-   of f. The ends of segments have an error of 10 u R, where R is their distance from that corner,
-   or the part of it that matters (visibility/cells/target.h); those of contacts have 16 u R and a
-   position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold in
-   f's triangle as it is computed, whose area differs from that of f by at most the length of its
+   Error. Lines, strips and cells are those of visibility/cells/cells_cut.c, in coordinates from a
+   corner of f. The ends of segments have an error of 10 u R, where R is their distance from that
+   corner, or the part of it that matters (visibility/cells/target.h); those of contacts have 16 u R
+   and a position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold
+   in f's triangle as it is computed, whose area differs from that of f by at most the length of its
    sides times their error.
 
    A needle may be narrower than these errors. It is divided in barycentric coordinates instead
-   (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except for the
-   frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
-   of another facet on which a point lies is computed in double-double. Areas are then in units of
-   twice the projected area of f. */
+   (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except
+   for the frame's position error, segments are clipped to a box with coordinates of at most 3, and
+   the side of another facet on which a point lies is computed in double-double. Areas are then in
+   units of twice the projected area of f. */
 #include "visibility/cells/facet_cells.h"
 
 #include <math.h>

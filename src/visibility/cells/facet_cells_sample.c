@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
-   segment the cell is best cut. What follows for the cell is decided in visibility/cells/facet_cells.c.
+   segment the cell is best cut. What follows for the cell is decided in
+   visibility/cells/facet_cells.c.
  */
 #include "visibility/cells/facet_cells_sample.h"
 

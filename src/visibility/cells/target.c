@@ -170,8 +170,9 @@ double lrcsi_target_unproject_err(const lrcsi_target *t)
    r |d| |g| / T.
 
    A clipped end is from + t (to - from), a difference, a product and a sum: 13 u^2 of 2 s, where s
-   is the larger coordinate. If t comes from heights (visibility/cells/contact.c), its quotient of rounded
-   sums adds 30 u^2 of 2 s. The total is at most 137 u^2 r |d| |g| / T, less than NEEDLE_ERR. */
+   is the larger coordinate. If t comes from heights (visibility/cells/contact.c), its quotient of
+   rounded sums adds 30 u^2 of 2 s. The total is at most 137 u^2 r |d| |g| / T, less than
+   NEEDLE_ERR. */
 #define NEEDLE_ERR (160 * LRCSI_U * LRCSI_U)
 
 /* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). This exceeds by

@@ -13,7 +13,8 @@ typedef struct lrcsi_events {
     uint32_t count;
 } lrcsi_events;
 
-/* The facets on an edge: those that can hide something in the view or, of one part, all live ones. */
+/* The facets on an edge: those that can hide something in the view or, of one part, all live
+   ones. */
 typedef struct lrcsi_edge_facets {
     uint32_t count;
     uint32_t facet[2];    /* the first two of them; LRCS_NONE for those that do not exist */

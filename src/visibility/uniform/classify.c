@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Classifies all facets: which are undecided, and which of the others form regions. The header
-   explains why this suffices. Which event edges cross a facet is decided in visibility/uniform/crossing.c;
-   how much of an undecided facet is visible, elsewhere. */
+   explains why this suffices. Which event edges cross a facet is decided in
+   visibility/uniform/crossing.c; how much of an undecided facet is visible, elsewhere. */
 #include "visibility/uniform/classify.h"
 
 #include <math.h>
