@@ -15,7 +15,8 @@
 #include "visibility/index/lists.h"
 #include "visibility/uniform/query.h"
 
-/* Limit on the entries of all blocks: so many for each facet, and a constant. */
+/* Limit on the entries of all blocks: so many for each facet, and a constant. Heuristic: if they
+   are more, blocks are made larger, which is slower but finds the same. */
 #define ENTRIES_PER_FACET 16u
 #define ENTRIES_CONSTANT  65536u
 
@@ -27,7 +28,7 @@ static uint64_t max_entries(const lrcs_prepared *p)
 /* Blocks are squares with BLOCK buckets of the classification's grid along a side; twice or four
    times as many, and so on, if their lists would otherwise be too long. They fill the whole view
    or, if that would take too many blocks, the window of the scene's bulk. Border blocks around
-   them hold what is outside. */
+   them hold what is outside. The number is heuristic: cells are cut until they are decided. */
 #define BLOCK 4u
 
 /* The largest number of blocks, border blocks included. */

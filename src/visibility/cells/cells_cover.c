@@ -53,7 +53,8 @@
 #include "base/range.h"
 
 /* The search of a component of more facets than this ends at the first event edge that crosses the
-   cell. In a smaller one all are found, and the cell is cut along the one that divides it best. */
+   cell. In a smaller one all are found, and the cell is cut along the one that divides it best: a
+   heuristic, since any cut serves. */
 #define SMALL_COMPONENT 8u
 /* A sample stays undecided if the nearest facet so far is replaced more often than this: a
    heuristic limit on the time that is spent on one sample. Depth orders that form a cycle would not

@@ -56,9 +56,11 @@
    facets of the cell, whether or not they are near it: a heuristic that saves time, and never
    charges too little. A hundred such strips are about 4e-16 of that square. */
 #define NEGLIGIBLE_STRIP 0x1p-58
-/* A cell that is no wider than so many strips may be charged whole. */
+/* A cell that is no wider than so many strips may be charged whole: a heuristic, since it is
+   charged no less than may be undecided. */
 #define NARROW_STRIPS 64
-/* A cell with more corners is halved. */
+/* Which of the cuts is made, in the next three, is heuristic: any is correct. A cell with more
+   corners is halved, so that there is room for those that cuts add. */
 #define MAX_CORNERS 20u
 /* So is a cell with more segments, if few of them are then in both halves. An edge of a convex
    outline has all of the outline on one side, so that a cut along it removes only that edge. */

@@ -48,11 +48,13 @@
 #include "visibility/cells/facet_cells_candidate.h"
 #include "visibility/cells/facet_cells_sample.h"
 
-/* Limit on the cells of a facet: a constant, and so many for each segment. */
+/* Limit on the cells of a facet: a constant, and so many for each segment. Heuristic: what is left
+   is counted as undecided. */
 #define CELLS_CONSTANT    4096u
 #define CELLS_PER_SEGMENT 256u
 /* A cell without room for a sample is halved if its area exceeds its perimeter times this many
-   distances that a sample must keep from the border: then it is not too narrow for a sample. */
+   distances that a sample must keep from the border: then it is not too narrow for a sample. This
+   and the next are heuristic: a cell that is not halved stays undecided. */
 #define NARROW 64
 /* It is not halved either if its area is at most this fraction of the area of f: 4096 such cells,
    more than a facet ordinarily has, are then less than 1e-12 of it. */
@@ -241,7 +243,7 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Room for the sides of so many candidates. */
+/* Room for the sides of so many candidates; those of others are computed anew each time. */
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
    last. */

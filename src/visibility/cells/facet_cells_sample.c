@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
    segment the cell is best cut. What follows for the cell is decided in
-   visibility/cells/facet_cells.c.
- */
+   visibility/cells/facet_cells.c. */
 #include "visibility/cells/facet_cells_sample.h"
 
 #include <math.h>
@@ -17,7 +16,8 @@
 #include "visibility/sample.h"
 
 /* The sides of a candidate need better error bounds if its farthest corner is more than this many
-   times as far away as its nearest corner and the reach of f together. */
+   times as far away as its nearest corner and the reach of f together. Heuristic: both bounds hold
+   in any case. */
 #define FAR_RATIO 64
 
 uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,

@@ -13,7 +13,7 @@
 #include "visibility/clip.h"
 
 /* A point counts as far if its distance is more than this many times that of the points with which
-   it is compared. */
+   it is compared. Heuristic: the errors returned hold for either choice. */
 #define FAR_POINT 8.0
 
 /* The position of a scene point that is much deeper, or much nearer, than the origin. The rows r of

@@ -30,7 +30,7 @@ typedef struct preview_counts {
     uint32_t round; /* the round in which it was found; 0: from samples; LRCS_NONE: not found yet */
 } preview_counts;
 
-/* Facets with fewer samples than this are corrected for bias (preview_bias). */
+/* Facets with fewer samples than this are corrected for bias (preview_bias). Heuristic. */
 #define FEW_SAMPLES 16u
 
 /* Over how many adjacent facets visible fractions propagate to facets without samples. */
