@@ -81,7 +81,7 @@ static void block_range(const lrcsi_block_grid *g, double low, double high, int 
 /* Counts or lists a polygon of at most three corners in the blocks that it may meet, row by row.
    Its range of x in a row is that of its sides in the row. What is computed from a side has an
    error below 8 u of a coordinate between the side's and the window's. (lrcsi_grid_walk does this
-   in a grid whose rows have other borders and errors, in floats.) */
+   in a grid whose rows have other borders and errors.) */
 static void blocks_put(lrcsi_block_grid *g, lrcsi_block_lists *b,
                        const lrcsi_view_vertex *const corner[3], int corners, uint32_t item)
 {
