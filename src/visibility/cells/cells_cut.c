@@ -242,7 +242,7 @@ int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcs
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, its own
    line or that of the cut separates them. */
-static int segment_stays(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
+static int segment_still_meets(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
 {
     if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
         !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
@@ -265,7 +265,7 @@ void lrcsi_cells_filter_segments(lrcsi_division *d, lrcsi_cell *cell, const lrcs
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         double w = e->err + s->tolerance;
-        if (cell->cuts > 0 && segment_stays(cell, e, w)) {
+        if (cell->cuts > 0 && segment_still_meets(cell, e, w)) {
             cell->segment[kept++] = cell->segment[i];
             continue;
         }

@@ -40,12 +40,12 @@ int lrcsi_facet_cells_order(const lrcsi_facet_cells *cells, uint32_t other)
 static int facet_apart(const lrcsi_facet_cells *cells, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = cells->division.view;
-    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
-            const lrcsi_view_vertex *at = &view->point[its[i]];
+            const lrcsi_view_vertex *at = &view->point[corner[i]];
             apart =
                 view->facing[cells->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
         }
@@ -75,15 +75,15 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
-            const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
-            if (lrcsi_marked(&cells->listed, other) || lrcsi_view_box_beside(its, &box) ||
-                lrcsi_view_box_behind(its, &box)) {
+            const lrcsi_view_box *other_box = lrcsi_boxes_facet(&grid->boxes, other);
+            if (lrcsi_marked(&cells->listed, other) || lrcsi_view_box_beside(other_box, &box) ||
+                lrcsi_view_box_behind(other_box, &box)) {
                 continue;
             }
             cells->listed.entry[other] = cells->listed.number;
             cells->order[other] = LRCSI_ORDER_DISJOINT;
             if (!facet_apart(cells, side, other)) {
-                int front = lrcsi_view_box_behind(&box, its);
+                int front = lrcsi_view_box_behind(&box, other_box);
                 cells->order[other] =
                     front ? (uint32_t)LRCSI_ORDER_FRONT : (uint32_t)LRCSI_ORDER_NOT_COMPUTED;
                 if (cells->candidate_count < cells->side_room) {
