@@ -27,6 +27,10 @@
    that errors of second order need not be followed. */
 #define LRCSI_OUTWARD_MICRO (1 + 1e-6)
 
+/* More than the square roots of 2 and 3. */
+#define LRCSI_ROOT_2_OUTWARD 1.4143
+#define LRCSI_ROOT_3_OUTWARD 1.7321
+
 /* For the rounding of a positive number to float, by at most 2^-24 of it. */
 #define LRCSI_OUTWARD_FLOAT (1 + 0x1p-22)
 

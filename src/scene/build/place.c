@@ -329,6 +329,6 @@ double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
     if (placer->has_translation) {
         x = bound_translation(x, placer->place.translate);
     }
-    /* At most sqrt(3) times the error of a coordinate, rounded up. */
-    return 1.7321 * x.error;
+    /* At most sqrt(3) times the error of a coordinate. */
+    return LRCSI_ROOT_3_OUTWARD * x.error;
 }

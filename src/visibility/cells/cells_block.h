@@ -49,8 +49,8 @@ enum lrcsi_finding {
 typedef struct lrcsi_blocks {
     lrcsi_block_grid grid;
     lrcsi_cells_frame frame; /* its vertices, relative to the middle of the current block */
-    unsigned char
-        *kind; /* facet: LRCSI_FACET_COPLANAR and so on (visibility/cells/cells_facet.h) */
+    unsigned char *kind;     /* facet: LRCSI_FACET_COPLANAR and so on
+                                (visibility/cells/cells_facet.h) */
     unsigned char *finding;  /* facet: what was found of it so far (enum lrcsi_finding) */
     lrcsi_division division; /* of the current block; records by the numbers of facets */
 } lrcsi_blocks;

@@ -8,6 +8,7 @@
 #include "base/constant.h"
 #include "base/dd.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "view/product.h"
 #include "visibility/clip.h"
@@ -366,8 +367,8 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
                                   .origin = t->origin,
                                   .corner = {{0, 0}, {1, 0}, {0, 1}},
                                   .size = 1,
-                                  .diameter = 1.4143,
-                                  .perimeter = 3.4143,
+                                  .diameter = LRCSI_ROOT_2_OUTWARD,
+                                  .perimeter = 2 + LRCSI_ROOT_2_OUTWARD,
                                   .position_err = needle->relative_err * needle->reach,
                                   .unit = 2 * lrcsi_view_incidence(t->view, t->facet).projected,
                                   .needle = needle};

@@ -57,8 +57,6 @@
 /* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
    to some 30 u. */
 #define OPENING_COS_MIN 1e-6
-/* The square root of 2, rounded up. */
-#define ROOT_2 1.4143
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -274,7 +272,7 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     if (last.t < edge.length + 2 * o->k) {
         return unknown;
     }
-    areas.width = ROOT_2 * (edge.length + 4 * o->k);
+    areas.width = LRCSI_ROOT_2_OUTWARD * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
     areas.gain = (areas.gain + err * areas.width) * LRCSI_OUTWARD_SUM;
     areas.loss = (areas.loss + err * areas.width) * LRCSI_OUTWARD_SUM;
