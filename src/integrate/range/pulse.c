@@ -62,7 +62,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         estimate += highest * bin->curvature_estimate_m2;
         bound += 64 * LRCSI_U * highest * (1 + farthest * farthest) * sigma;
     }
-    bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;
+    bound *= LRCSI_OUTWARD_NANO + 4 * LRCSI_U * profile->count;
     if (!isfinite(lrcsi_sum_value(&density) + bound)) {
         return LRCS_E_NUMBER;
     }

@@ -497,7 +497,7 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
 {
     const lrcs_prepared *p = run->prepared;
     double count = run->bins.additions;
-    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
+    double outward = LRCSI_OUTWARD_NANO + 2 * count * LRCSI_U;
     double adding = 4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U);
     for (uint32_t i = 0; i < profile->count; i++) {
         const lrcsi_range_sums *sums = &run->bins.bin[run->bins.begin + i];
