@@ -99,23 +99,23 @@ static int edges_are_convex(const convex_mesh *m, unsigned char *crease)
 }
 
 /* Condition 2, first half: all facets can be reached from the first one across edges. */
-static int facets_are_connected(const convex_mesh *m, uint32_t *queue, unsigned char *seen)
+static int facets_are_connected(const convex_mesh *m, uint32_t *queue, unsigned char *visited)
 {
     const lrcsi_topology *t = m->topology;
     uint32_t proper = 0;
     uint32_t tail = 0;
     for (uint32_t f = 0; f < m->facet_count; f++) {
-        seen[f] = t->degenerate[f];
+        visited[f] = t->degenerate[f];
         if (!t->degenerate[f] && proper++ == 0) {
             queue[tail++] = f;
-            seen[f] = 1;
+            visited[f] = 1;
         }
     }
     for (uint32_t head = 0; head < tail; head++) {
         for (int k = 0; k < 3; k++) {
             uint32_t g = facet_across(t, t->facet_edge[queue[head]].corner[k], queue[head]);
-            if (!seen[g]) {
-                seen[g] = 1;
+            if (!visited[g]) {
+                visited[g] = 1;
                 queue[tail++] = g;
             }
         }
@@ -271,15 +271,15 @@ int lrcsi_convex_prove(const lrcs_point *vertex, uint32_t vertex_count, const lr
     size_t mark = work->used;
     unsigned char *crease = lrcsi_work_take(work, topology->edge_count, sizeof *crease);
     uint32_t *queue = lrcsi_work_take(work, facet_count, sizeof *queue);
-    unsigned char *seen = lrcsi_work_take(work, facet_count, sizeof *seen);
+    unsigned char *visited = lrcsi_work_take(work, facet_count, sizeof *visited);
     uint32_t *size = lrcsi_work_take_zero(work, vertex_count, sizeof *size);
     fan_place *start = lrcsi_work_take(work, vertex_count, sizeof *start);
-    if (!crease || !queue || !seen || !size || !start) {
+    if (!crease || !queue || !visited || !size || !start) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     convex_mesh m = {vertex, facet, topology, crease, facet_count};
-    *convex = edges_are_convex(&m, crease) && facets_are_connected(&m, queue, seen) &&
+    *convex = edges_are_convex(&m, crease) && facets_are_connected(&m, queue, visited) &&
               points_are_convex(&m, size, start);
     work->used = mark;
     return LRCS_OK;

@@ -99,8 +99,8 @@ typedef struct lrcsi_meshlets {
     uint32_t count;
     unsigned char *first; /* facet: the first facet connected with it within the meshlet, counted
                              from the meshlet's first facet */
-    lrcsi_meshlet_side
-        *side; /* those of meshlet m: side[meshlet[m].first_side .. meshlet[m + 1].first_side) */
+    lrcsi_meshlet_side *side; /* those of meshlet m:
+                                 side[meshlet[m].first_side .. meshlet[m + 1].first_side) */
     /* A compact form, which suffices where all facets of a meshlet have equal properties in a view:
      */
     unsigned char *whole; /* meshlet: 1 if all its facets are connected within it */
@@ -166,9 +166,9 @@ struct lrcs_prepared {
                            sides are never seen */
     int two_sided;      /* some live facet is two-sided */
     int glint, diffuse; /* some live facet has A > 0; B > 0 */
-    int has_curved_shapes; /* some live part was tessellated from a curved shape */
-    lrcsi_proximity
-        proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
+    int has_curved_shapes;      /* some live part was tessellated from a curved shape */
+    lrcsi_proximity proximity;  /* if there are curved shapes among other parts; else
+                                   proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
     int articulated;            /* some part has a joint */
     int has_curved_normals;     /* some live facet has curved normals */

@@ -9,6 +9,7 @@
 #include "base/constant.h"
 #include "base/degrees.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
@@ -89,7 +90,7 @@ lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *p, uint32_t
                          &cosine);
     d.known = 1;
     for (int k = 0; k < 3; k++) {
-        d.bound[k] = ldexp(part->bounds.displacement[k], -p->exponent) * (1 + 1e-9);
+        d.bound[k] = ldexp(part->bounds.displacement[k], -p->exponent) * LRCSI_OUTWARD_NANO;
         d.direction[0][k] = part->axis[0][k] * cosine + part->axis[1][k] * sine;
         d.direction[1][k] = part->axis[2][k];
         d.direction[2][k] = part->axis[1][k] * cosine - part->axis[0][k] * sine;
@@ -205,7 +206,7 @@ static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other,
 /* A fraction as a float, rounded up. */
 static float fraction_float(double fraction)
 {
-    return (float)lrcsi_min(1, fraction * (1 + 0x1p-22));
+    return (float)lrcsi_min(1, fraction * LRCSI_OUTWARD_FLOAT);
 }
 
 /* Pairs are allocated one by one and must be contiguous. */

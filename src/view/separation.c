@@ -23,6 +23,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
@@ -64,7 +65,7 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
         body.solid = lrcsi_body_solid(p, index);
         body.vertex_ratio = shape.vertex_ratio;
         body.beyond = shape.step > 0 && !shape.level_zones
-                          ? ldexp(part->bounds.hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)
+                          ? ldexp(part->bounds.hausdorff, -p->exponent) * LRCSI_OUTWARD(8)
                           : 0;
         for (int k = 0; k < 3; k++) {
             body.origin[k] = ldexp(part->origin[k], -p->exponent);

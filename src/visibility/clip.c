@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 
 /* --- measures --------------------------------------------------------------------------------- */
@@ -89,7 +90,10 @@ double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double abo
     }
     first[0] += sum[0];
     first[1] += sum[1];
-    return sqrt(square) * (1 + 4 * LRCSI_U);
+    /* The root of the exact square is at most 2 u larger, and rounding it changes half an ulp: r =
+       m 2^e, 1 <= m < 2, is too small by at most m + 1/2 ulps. The rounded r (1 + 4 u) is larger
+       than r by at least 2 ulps, and by at least 2 m - 1/2. */
+    return sqrt(square) * LRCSI_OUTWARD(4);
 }
 
 /* The contribution of the segment p q to the area of a polygon within the unit square at the
@@ -301,7 +305,7 @@ static double corner_err(double x, double y, double t, const double corner[2])
     y = fabs(y);
     double x_err = x > 0 ? LRCSI_U * (2 * t * x + fabs(corner[0])) : 0;
     double y_err = y > 0 ? LRCSI_U * (2 * t * y + fabs(corner[1])) : 0;
-    return (1 + 8 * LRCSI_U) * (x * y_err + y * x_err) / lrcsi_max(x, y);
+    return LRCSI_OUTWARD(8) * (x * y_err + y * x_err) / lrcsi_max(x, y);
 }
 
 double lrcsi_clip_divide(const lrcsi_clip_polygon *shape, const double line[3],

@@ -11,9 +11,10 @@
 #include "visibility/cells/cells.h"
 #include "visibility/uniform/query.h"
 
-/* Undecided facets are processed together (visibility/cells/cells.h) if there are at least MIN_UNDECIDED
-   of them, and at least one in MIN_FRACTION facets: to process them together, all facets are sorted
-   into blocks, which costs more than processing a few facets one by one. */
+/* Undecided facets are processed together (visibility/cells/cells.h) if there are at least
+   MIN_UNDECIDED of them, and at least one in MIN_FRACTION facets: to process them together, all
+   facets are sorted into blocks, which costs more than processing a few facets one by one. Both
+   are heuristic: where the two take about the same time. */
 #define MIN_UNDECIDED 192u
 #define MIN_FRACTION  32u
 

@@ -52,8 +52,8 @@ lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
 lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
 
 /* All facets: uniform ones by one exact sample; undecided ones together if there are many
-   (visibility/cells/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the
-   areas include what is still open.
+   (visibility/cells/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of
+   the areas include what is still open.
    Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
    all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/work.h"
 #include "visibility/occlude.h"
 
@@ -186,6 +187,6 @@ int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_
     memmove(polygons->ring, list.ring, list.rings * sizeof *list.ring);
     memmove(polygons->point, list.point, list.points * sizeof *list.point);
     polygons->bound_m2 =
-        lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * LRCSI_U));
+        lrcsi_prepared_area(prepared, list.bound * (LRCSI_OUTWARD_NANO + 2 * count * LRCSI_U));
     return LRCS_OK;
 }

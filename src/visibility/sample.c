@@ -9,6 +9,7 @@
 #include "base/dd.h"
 #include "base/exact.h"
 
+/* More than a few products can lose to underflow: 2^-1075 each. */
 #define UNDERFLOW 0x1p-1000
 
 /* The axis along which the direction has its largest component. The other two axes, projected along

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 
@@ -45,7 +46,7 @@ double lrcsi_cubature_cell_turn(const lrcsi_cubature_cell *cell)
         lrcsi_vec3_cross(n, m, cross);
         tangent = lrcsi_max(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
     }
-    return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCS_PI;
+    return isfinite(tangent) ? atan(tangent) * LRCSI_OUTWARD(4) + 16 * LRCSI_U : LRCS_PI;
 }
 
 /* The length of the shortest normal at a corner. */

@@ -8,6 +8,7 @@
 
 #include "base/constant.h"
 #include "base/elementary.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/sum.h"
 
@@ -44,7 +45,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         double sigma = bin->sigma_glint_m2 + bin->sigma_diffuse_m2;
         double err = profile->range_err_m + 4 * LRCSI_U * (fabs(range_m) + fabs(centre));
         double t = (range_m - centre) / d;
-        double half = (0.5 * profile->bin_m + err) / d * (1 + 8 * LRCSI_U);
+        double half = (0.5 * profile->bin_m + err) / d * LRCSI_OUTWARD(8);
         double nearest = lrcsi_max(0, fabs(t) - half);
         double farthest = fabs(t) + half;
         if (nearest > PULSE_END) {
@@ -61,7 +62,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         estimate += highest * bin->curvature_estimate_m2;
         bound += 64 * LRCSI_U * highest * (1 + farthest * farthest) * sigma;
     }
-    bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;
+    bound *= LRCSI_OUTWARD_NANO + 4 * LRCSI_U * profile->count;
     if (!isfinite(lrcsi_sum_value(&density) + bound)) {
         return LRCS_E_NUMBER;
     }

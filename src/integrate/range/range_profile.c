@@ -58,6 +58,7 @@
 
 #include "base/constant.h"
 #include "base/dd.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/sum.h"
 #include "base/work.h"
@@ -318,7 +319,7 @@ static void profile_add_tessellation(profile_run *run, uint32_t facet)
     facet_ranges(run, facet, &f);
     facet_ranges(run, error.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
-    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * LRCSI_OUTWARD(4) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     int order[3];
     lrcsi_range_order(f.range, order);
@@ -497,7 +498,7 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
 {
     const lrcs_prepared *p = run->prepared;
     double count = run->bins.additions;
-    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
+    double outward = LRCSI_OUTWARD_NANO + 2 * count * LRCSI_U;
     double adding = 4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U);
     for (uint32_t i = 0; i < profile->count; i++) {
         const lrcsi_range_sums *sums = &run->bins.bin[run->bins.begin + i];

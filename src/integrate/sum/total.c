@@ -18,6 +18,7 @@
 
 #include "base/constant.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "integrate/sum/facet_terms.h"
 #include "integrate/wall/tessellation.h"
 #include "optics/reflect.h"
@@ -172,7 +173,7 @@ static void total_finish(lrcsi_total_run *run)
     double glint = lrcsi_sum_value(&sums->glint);
     double diffuse = lrcsi_sum_value(&sums->diffuse);
     double count = p->scene->facet_count;
-    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
+    double outward = LRCSI_OUTWARD_NANO + 2 * count * LRCSI_U;
     total->glint = lrcsi_prepared_area(p, glint);
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));

@@ -49,6 +49,7 @@
 
 #include "base/elementary.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "mesh/shape/revolution_normals.h"
 
@@ -199,8 +200,8 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
     double diameter = (2 * normals.width + normals.length) * unit;
     double gradient = lrcsi_length_flat(linear->glint[0] + linear->diffuse[0],
                                         linear->glint[1] + linear->diffuse[1]);
-    linear->variation = (x * at.reach[0] + y * at.reach[1]) * (1 + 16 * LRCSI_U);
-    linear->slope = gradient * (1 + 16 * LRCSI_U) + 64 * LRCSI_U * length / at.c;
+    linear->variation = (x * at.reach[0] + y * at.reach[1]) * LRCSI_OUTWARD(16);
+    linear->slope = gradient * LRCSI_OUTWARD(16) + 64 * LRCSI_U * length / at.c;
     linear->rounding +=
         4 * patch->area_err * linear->variation / at.c + 128 * LRCSI_U * length * diameter / at.c;
     double area = linear->variation * (a / (1 - a));
@@ -240,6 +241,6 @@ lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t fa
         m.first[k] -= visible->area * centre;
         m.error += fabs(centre) * area_err;
     }
-    m.ratio = sum / p->normal[facet].length * (1 + 4 * LRCSI_U);
+    m.ratio = sum / p->normal[facet].length * LRCSI_OUTWARD(4);
     return m;
 }

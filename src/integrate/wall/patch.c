@@ -57,6 +57,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "integrate/wall/mean_rule.h"
 #include "mesh/shape/revolution.h"
@@ -255,7 +256,7 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
         double low = f->fourth ? fabs(f->cosine) - (exp_a - 1) : 1;
         bound *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
     }
-    return 1.000001 * nu_max * bound;
+    return LRCSI_OUTWARD_MICRO * nu_max * bound;
 }
 
 /* Chooses the rule in one variable: that with the fewest points whose remainder is at most
@@ -286,7 +287,7 @@ static const lrcsi_mean_rule *rule_choose(const patch_frame *f, const lrcs_brdf 
     while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
         n++;
     }
-    *error = 1.000001 * best[n];
+    *error = LRCSI_OUTWARD_MICRO * best[n];
     return &lrcsi_mean_rules[n];
 }
 

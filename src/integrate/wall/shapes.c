@@ -14,6 +14,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "optics/closed.h"
 
 #define AXES_ERR 0x1p-95
@@ -45,8 +46,7 @@ static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrc
 }
 
 /* What the slab may hide is at most its area times the largest value of F. The glint
-   (1 + u)^2 exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. The factor 1.000001 covers the
-   rounding of these products. */
+   (1 + u)^2 exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. */
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab)
 {
@@ -71,7 +71,7 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
     return (lrcsi_shape_terms){.glint = sum.value[LRCSI_GLINT],
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
-                               .visibility = LRCS_FOUR_PI * 1.000001 * slab * bound,
+                               .visibility = LRCS_FOUR_PI * LRCSI_OUTWARD_MICRO * slab * bound,
                                .silhouette = silhouette * unit * unit};
 }
 

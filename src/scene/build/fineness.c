@@ -49,8 +49,8 @@
    surface. Only patches that are nearly edge-on to the laser, or partly face away from it, have a
    large error. Measured with nine materials at 37 aspects, the bounds relative to the mean of sigma
    over the aspects are at most 20/N^2 for straight walls and 300/N^3 for round shapes of N sectors.
-   This holds if the rules of integrate/wall/patch.h apply: a facet may turn by at most 4 s and 0.1 rad
-   in azimuth (hence at least 1.6/s and 64 sectors), and m must not exceed 50. */
+   This holds if the rules of integrate/wall/patch.h apply: a facet may turn by at most 4 s and 0.1
+   rad in azimuth (hence at least 1.6/s and 64 sectors), and m must not exceed 50. */
 #define ALONE_STRAIGHT     20.0
 #define ALONE_ROUND        300.0
 #define ALONE_SECTORS_MIN  64.0

@@ -8,6 +8,7 @@
 
 #include "base/constant.h"
 #include "base/dd.h"
+#include "base/outward.h"
 #include "base/rotate.h"
 
 lrcs_place lrcs_place_default(void)
@@ -148,7 +149,7 @@ static double rotation_defect(const double R[3][3], lrcsi_dd D[3][3])
             square += sum.hi * sum.hi;
         }
     }
-    return square > 0.0 ? 1.000001 * sqrt(square) + 0x1p-98 : 0.0;
+    return square > 0.0 ? LRCSI_OUTWARD_MICRO * sqrt(square) + 0x1p-98 : 0.0;
 }
 
 /* The rotation or reflection nearest to R, the polar factor R (I + D)^(-1/2) = R (I - D/2 + (3/8)
@@ -266,8 +267,8 @@ void lrcsi_placer_singular_values(const lrcsi_placer *placer, double *largest, d
         *condition *= sqrt((1.0 + joint) / (1.0 - joint) * (1.0 + place) / (1.0 - place));
     }
     if (joint > 0.0 || place > 0.0 || large != small) {
-        *largest *= 1.000001;
-        *condition *= 1.000001;
+        *largest *= LRCSI_OUTWARD_MICRO;
+        *condition *= LRCSI_OUTWARD_MICRO;
     }
 }
 
@@ -328,6 +329,6 @@ double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
     if (placer->has_translation) {
         x = bound_translation(x, placer->place.translate);
     }
-    /* At most sqrt(3) times the error of a coordinate, rounded up. */
-    return 1.7321 * x.error;
+    /* At most sqrt(3) times the error of a coordinate. */
+    return LRCSI_ROOT_3_OUTWARD * x.error;
 }

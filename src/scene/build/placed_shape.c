@@ -9,12 +9,10 @@
 #include "base/constant.h"
 #include "base/degrees.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/vec3.h"
 #include "mesh/shape/patch_bounds.h"
 #include "mesh/shape/tessellate.h"
-
-/* Rounds a bound up by more than the few operations that compute it can round it down. */
-#define ROUNDED_UP 1.000001
 
 /* The smallest extent of a shape, in its own units; 0 for a flat shape. */
 static double smallest_extent(const lrcs_shape *shape)
@@ -99,7 +97,7 @@ void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene 
     if (part->bounds.reach > 0.0 && e > 0.0) {
         double factor = 3.0 * (1.0 + part->bounds.patch.area_err);
         double altitude = smallest_altitude(scene, part);
-        part->bounds.normal_err = ROUNDED_UP * factor * e / altitude;
+        part->bounds.normal_err = LRCSI_OUTWARD_MICRO * factor * e / altitude;
         part->bounds.known = part->bounds.known && altitude > 0.0;
         part->bounds.patch =
             part->bounds.patch.turn > 0.0
@@ -151,7 +149,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->min_extent = smallest * smallest_extent(shape);
     part->solid = is_closed(shape) && part->min_extent > 0.0;
     if (reach.all > 0.0) {
-        double scaled = ROUNDED_UP * norm;
+        double scaled = LRCSI_OUTWARD_MICRO * norm;
         double placed = 2.0 * part->bounds.position_err;
         part->bounds.reach = scaled * reach.all + placed;
         part->bounds.hausdorff =

@@ -34,6 +34,7 @@
 #include <string.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells/cells_block.h"
@@ -41,7 +42,7 @@
 #include "visibility/cells/cells_cut.h"
 
 /* Limit on the steps of a block: a constant, and so many for each facet and segment in it and for
-   each cell decided. Ordinary scenes take a tenth of this, or less. */
+   each cell decided. Heuristic: ordinary scenes take a tenth of this, or less. */
 #define STEPS_CONSTANT 65536u
 #define STEPS_PER_ITEM 4096u
 #define STEPS_PER_CELL 4096u
@@ -54,7 +55,9 @@
    accepted: a facet alone is compared with every facet that might hide it. */
 #define MANY_LEFT     65536u
 #define SINGLE_FACTOR 4
-/* A facet is a needle if its projected area is less than this, relative to its diameter squared. */
+/* A facet counts as a needle here if its projected area is less than this, relative to its diameter
+   squared. Heuristic: those that are needles to visibility/cells/target.c, and some that are wider.
+   */
 #define MAX_NEEDLE_AREA 0x1p-18
 
 /* Room for the facet lists of all cells on the stack: so many times all facets. Ordinary scenes
@@ -369,7 +372,7 @@ static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double r
         double high[3];
         lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
         *moment = (lrcsi_moment){.error = err * lrcsi_max(high[0] - low[0], high[1] - low[1]) *
-                                          (1 + 4 * LRCSI_U)};
+                                          LRCSI_OUTWARD(4)};
     }
 }
 

@@ -15,7 +15,8 @@
 #include "visibility/index/lists.h"
 #include "visibility/uniform/query.h"
 
-/* Limit on the entries of all blocks: so many for each facet, and a constant. */
+/* Limit on the entries of all blocks: so many for each facet, and a constant. Heuristic: if they
+   are more, blocks are made larger, which is slower but finds the same. */
 #define ENTRIES_PER_FACET 16u
 #define ENTRIES_CONSTANT  65536u
 
@@ -27,7 +28,7 @@ static uint64_t max_entries(const lrcs_prepared *p)
 /* Blocks are squares with BLOCK buckets of the classification's grid along a side; twice or four
    times as many, and so on, if their lists would otherwise be too long. They fill the whole view
    or, if that would take too many blocks, the window of the scene's bulk. Border blocks around
-   them hold what is outside. */
+   them hold what is outside. The number is heuristic: cells are cut until they are decided. */
 #define BLOCK 4u
 
 /* The largest number of blocks, border blocks included. */
@@ -79,7 +80,8 @@ static void block_range(const lrcsi_block_grid *g, double low, double high, int 
 
 /* Counts or lists a polygon of at most three corners in the blocks that it may meet, row by row.
    Its range of x in a row is that of its sides in the row. What is computed from a side has an
-   error below 8 u of a coordinate between the side's and the window's. */
+   error below 8 u of a coordinate between the side's and the window's. (lrcsi_grid_walk does this
+   in a grid whose rows have other borders and errors.) */
 static void blocks_put(lrcsi_block_grid *g, lrcsi_block_lists *b,
                        const lrcsi_view_vertex *const corner[3], int corners, uint32_t item)
 {

@@ -28,8 +28,8 @@ typedef struct lrcsi_block_grid {
 size_t lrcsi_block_grid_need(const lrcs_prepared *prepared);
 
 /* Makes the blocks, and lists in each the event edges and the facets that can hide others, except
-   those that are proved to be hidden (visibility/cells/cells_cover.c). 0 if memory does not suffice, or
-   if the lists are too long. */
+   those that are proved to be hidden (visibility/cells/cells_cover.c). 0 if memory does not
+   suffice, or if the lists are too long. */
 int lrcsi_block_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
                           lrcs_work *work, lrcsi_block_grid *grid);
 
@@ -49,8 +49,8 @@ enum lrcsi_finding {
 typedef struct lrcsi_blocks {
     lrcsi_block_grid grid;
     lrcsi_cells_frame frame; /* its vertices, relative to the middle of the current block */
-    unsigned char
-        *kind; /* facet: LRCSI_FACET_COPLANAR and so on (visibility/cells/cells_facet.h) */
+    unsigned char *kind;     /* facet: LRCSI_FACET_COPLANAR and so on
+                                (visibility/cells/cells_facet.h) */
     unsigned char *finding;  /* facet: what was found of it so far (enum lrcsi_finding) */
     lrcsi_division division; /* of the current block; records by the numbers of facets */
 } lrcsi_blocks;

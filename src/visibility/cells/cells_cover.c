@@ -3,10 +3,10 @@
    behind it.
 
    Proof. P is the sample, x any other point of the cell in general position. "The path" is the
-   straight line from P to x. All statements exclude the strips that visibility/cells/cells_cut.c accounts
-   for. Facets that have been removed from the list are nowhere the nearest: at every point of the
-   cell that such a facet covers, a facet of the list is in front of it. (2) preserves this, and
-   facets that are hidden everywhere need not be listed in the first place.
+   straight line from P to x. All statements exclude the strips that visibility/cells/cells_cut.c
+   accounts for. Facets that have been removed from the list are nowhere the nearest: at every point
+   of the cell that such a facet covers, a facet of the list is in front of it. (2) preserves this,
+   and facets that are hidden everywhere need not be listed in the first place.
 
    (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
@@ -53,7 +53,8 @@
 #include "base/range.h"
 
 /* The search of a component of more facets than this ends at the first event edge that crosses the
-   cell. In a smaller one all are found, and the cell is cut along the one that divides it best. */
+   cell. In a smaller one all are found, and the cell is cut along the one that divides it best: a
+   heuristic, since any cut serves. */
 #define SMALL_COMPONENT 8u
 /* A sample stays undecided if the nearest facet so far is replaced more often than this: a
    heuristic limit on the time that is spent on one sample. Depth orders that form a cycle would not

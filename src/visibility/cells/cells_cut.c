@@ -11,11 +11,11 @@
    removes two triangles along the sides that it cuts, as high as the shape error grows by that cut.
 
    Segments at the border. Let w be the sum of the segment's error (`err`, `line_err`:
-   visibility/cells/cells_facet.c), 16 u times the largest coordinate of the block, and the shape error.
-   If the computed distance of a segment from the cell exceeds w, the segment does not meet the
-   cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part in
-   the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2 w
-   of its own line, with the cell on one side of that line. Let c be the distance of the sample P
+   visibility/cells/cells_facet.c), 16 u times the largest coordinate of the block, and the shape
+   error. If the computed distance of a segment from the cell exceeds w, the segment does not meet
+   the cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part
+   in the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2
+   w of its own line, with the cell on one side of that line. Let c be the distance of the sample P
    from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
    within 4 w of that line, and no farther along it from the segment than 4 w / c times the cell's
    diameter. That is below STRIP_OVERHANG w if c exceeds MAX_THIN times the perimeter. The
@@ -56,9 +56,11 @@
    facets of the cell, whether or not they are near it: a heuristic that saves time, and never
    charges too little. A hundred such strips are about 4e-16 of that square. */
 #define NEGLIGIBLE_STRIP 0x1p-58
-/* A cell that is no wider than so many strips may be charged whole. */
+/* A cell that is no wider than so many strips may be charged whole: a heuristic, since it is
+   charged no less than may be undecided. */
 #define NARROW_STRIPS 64
-/* A cell with more corners is halved. */
+/* Which of the cuts is made, in the next three, is heuristic: any is correct. A cell with more
+   corners is halved, so that there is room for those that cuts add. */
 #define MAX_CORNERS 20u
 /* So is a cell with more segments, if few of them are then in both halves. An edge of a convex
    outline has all of the outline on one side, so that a cut along it removes only that edge. */
@@ -240,7 +242,7 @@ int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcs
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, its own
    line or that of the cut separates them. */
-static int segment_stays(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
+static int segment_still_meets(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
 {
     if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
         !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
@@ -263,7 +265,7 @@ void lrcsi_cells_filter_segments(lrcsi_division *d, lrcsi_cell *cell, const lrcs
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         double w = e->err + s->tolerance;
-        if (cell->cuts > 0 && segment_stays(cell, e, w)) {
+        if (cell->cuts > 0 && segment_still_meets(cell, e, w)) {
             cell->segment[kept++] = cell->segment[i];
             continue;
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A part of the view plane that is being divided into cells: a block (visibility/cells/cells.c) or the
-   triangle of one facet (visibility/cells/facet_cells.c). */
+/* A part of the view plane that is being divided into cells: a block (visibility/cells/cells.c) or
+   the triangle of one facet (visibility/cells/facet_cells.c). */
 #ifndef LRCSI_CELLS_DIVISION_H
 #define LRCSI_CELLS_DIVISION_H
 

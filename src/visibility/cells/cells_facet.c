@@ -8,8 +8,8 @@
    error near the block. Its direction has an error of 2 u. Its distance from the middle of the
    block is computed in double-double, with a relative error of 2 u, apart from a factor that a, b
    and c have in common. Both cost 5.7 u b within the block, and evaluating the line there 2.9 u b.
-   That is less than 16 u b, which all cells allow for (visibility/cells/cells_cut.c); `line_err` is the
-   rest, due to the errors of the vertices.
+   That is less than 16 u b, which all cells allow for (visibility/cells/cells_cut.c); `line_err` is
+   the rest, due to the errors of the vertices.
 
    Heights. Let H be the smallest height of a facet. A point within w of the facet has barycentric
    coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper

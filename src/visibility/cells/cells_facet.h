@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets and segments in view coordinates from the middle of a block of the view plane: their
-   lines, planes, heights and errors, and which of two facets is nearer (visibility/cells/cells.c). */
+   lines, planes, heights and errors, and which of two facets is nearer
+   (visibility/cells/cells.c). */
 #ifndef LRCSI_CELLS_FACET_H
 #define LRCSI_CELLS_FACET_H
 

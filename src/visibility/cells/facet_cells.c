@@ -5,18 +5,18 @@
 
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
-   found exactly (visibility/uniform/crossing.h); the contacts of f; and the sides of facets in the plane of
-   f that hide it (visibility/cells/facet_cells_candidate.c). A sample finds which facets are in front of
-   f at a point P of a cell (visibility/cells/facet_cells_sample.c). Let x be any other point of the
-   cell.
+   found exactly (visibility/uniform/crossing.h); the contacts of f; and the sides of facets in the
+   plane of f that hide it (visibility/cells/facet_cells_candidate.c). A sample finds which facets
+   are in front of f at a point P of a cell (visibility/cells/facet_cells_sample.c). Let x be any
+   other point of the cell.
 
    (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
    visible: nothing changes on the way from P to x.
 
    (2) If a facet is in front of f at P, consider its component: all facets connected with it by
-   edges that are not events (visibility/uniform/classify.h). If no segment is left at which the component
-   ends or meets f, the component continues on the way from P to x, and stays in front of f, because
-   it would have to intersect f to pass behind it. So f is hidden in all of the cell.
+   edges that are not events (visibility/uniform/classify.h). If no segment is left at which the
+   component ends or meets f, the component continues on the way from P to x, and stays in front of
+   f, because it would have to intersect f to pass behind it. So f is hidden in all of the cell.
 
    (3) Otherwise the cell is cut along a segment of the component that has the fewest segments left.
 
@@ -25,18 +25,18 @@
    segments like all others. Near the line of the contact it remains undecided whether the facet is
    in front.
 
-   Error. Lines, strips and cells are those of visibility/cells/cells_cut.c, in coordinates from a corner
-   of f. The ends of segments have an error of 10 u R, where R is their distance from that corner,
-   or the part of it that matters (visibility/cells/target.h); those of contacts have 16 u R and a
-   position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold in
-   f's triangle as it is computed, whose area differs from that of f by at most the length of its
+   Error. Lines, strips and cells are those of visibility/cells/cells_cut.c, in coordinates from a
+   corner of f. The ends of segments have an error of 10 u R, where R is their distance from that
+   corner, or the part of it that matters (visibility/cells/target.h); those of contacts have 16 u R
+   and a position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold
+   in f's triangle as it is computed, whose area differs from that of f by at most the length of its
    sides times their error.
 
    A needle may be narrower than these errors. It is divided in barycentric coordinates instead
-   (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except for the
-   frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
-   of another facet on which a point lies is computed in double-double. Areas are then in units of
-   twice the projected area of f. */
+   (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except
+   for the frame's position error, segments are clipped to a box with coordinates of at most 3, and
+   the side of another facet on which a point lies is computed in double-double. Areas are then in
+   units of twice the projected area of f. */
 #include "visibility/cells/facet_cells.h"
 
 #include <math.h>
@@ -48,11 +48,13 @@
 #include "visibility/cells/facet_cells_candidate.h"
 #include "visibility/cells/facet_cells_sample.h"
 
-/* Limit on the cells of a facet: a constant, and so many for each segment. */
+/* Limit on the cells of a facet: a constant, and so many for each segment. Heuristic: what is left
+   is counted as undecided. */
 #define CELLS_CONSTANT    4096u
 #define CELLS_PER_SEGMENT 256u
 /* A cell without room for a sample is halved if its area exceeds its perimeter times this many
-   distances that a sample must keep from the border: then it is not too narrow for a sample. */
+   distances that a sample must keep from the border: then it is not too narrow for a sample. This
+   and the next are heuristic: a cell that is not halved stays undecided. */
 #define NARROW 64
 /* It is not halved either if its area is at most this fraction of the area of f: 4096 such cells,
    more than a facet ordinarily has, are then less than 1e-12 of it. */
@@ -61,23 +63,23 @@
 /* --- the first cell --------------------------------------------------------------------------- */
 
 /* Leaves an area undecided: it counts as half visible. */
-static void leave_area_undecided(lrcsi_facet_cells *a, double area)
+static void leave_area_undecided(lrcsi_facet_cells *cells, double area)
 {
-    a->perhaps_hidden += 0.5 * area;
-    a->perhaps_visible += 0.5 * area;
+    cells->perhaps_hidden += 0.5 * area;
+    cells->perhaps_visible += 0.5 * area;
 }
 
 /* 1. Makes the frame of f. 2. Makes the record of f, the first cell, and the error along the sides
    of f. 3. Lists what may hide f, unless rounding may have reversed the triangle's orientation. */
-void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
+void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
 {
-    lrcsi_division *d = &a->division;
-    const lrcsi_target *frame = &a->frame;
-    lrcsi_cells_facet *f = &a->shape;
+    lrcsi_division *d = &cells->division;
+    const lrcsi_target *frame = &cells->frame;
+    lrcsi_cells_facet *f = &cells->shape;
     lrcsi_cell cell = {.cuts = 0};
-    a->facet = facet;
-    lrcsi_target_make(d->view, facet, &a->target);
-    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
+    cells->facet = facet;
+    lrcsi_target_make(d->view, facet, &cells->target);
+    lrcsi_target_refine(&cells->target, &cells->needle, &cells->frame);
 
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
     *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = facet};
@@ -88,53 +90,54 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->wanted = 1;
-    a->area = (lrcsi_cell_area){.visible = 0};
+    cells->wanted = 1;
+    cells->area = (lrcsi_cell_area){.visible = 0};
     d->facet = f;
-    d->area = &a->area;
-    d->wanted = &a->wanted;
+    d->area = &cells->area;
+    d->wanted = &cells->wanted;
     d->facet_err = err;
     d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
     d->segment_count = d->stack_count = 0;
     cell.facet = d->facet_lists;
     cell.facet[0] = 0;
     cell.facet_count = 1;
-    a->moment = (lrcsi_moment){.error = 0};
-    a->reach = 0;
-    a->perhaps_hidden = a->perhaps_visible = a->piece_err = 0;
-    a->hidden = 0;
-    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
-    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
+    cells->moment = (lrcsi_moment){.error = 0};
+    cells->reach = 0;
+    cells->perhaps_hidden = cells->perhaps_visible = cells->piece_err = 0;
+    cells->hidden = 0;
+    cells->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
+    cells->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
 
     if (!(lrcsi_clip_area(&cell.shape) > 8 * err * frame->diameter) ||
-        !lrcsi_facet_cells_candidates(a) || !lrcsi_facet_cells_segments(a)) {
-        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
+        !lrcsi_facet_cells_candidates(cells) || !lrcsi_facet_cells_segments(cells)) {
+        leave_area_undecided(cells, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
         return;
     }
     lrcsi_division_start(d, &cell);
-    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segment_count;
+    cells->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segment_count;
 }
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+static void add_visible_piece(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                               const lrcsi_clip_sides *s)
 {
-    lrcsi_cell_area *area = &a->area;
-    a->piece = cell->shape;
-    if (a->frame.needle) {
+    lrcsi_cell_area *area = &cells->area;
+    cells->piece = cell->shape;
+    if (cells->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
-            lrcsi_target_to_axes(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
+            lrcsi_target_to_axes(&cells->frame, cell->shape.corner[i], cells->piece.corner[i]);
         }
-        a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_box_perimeter(&a->piece);
+        cells->piece_err +=
+            4 * LRCSI_U * cells->target.reach * lrcsi_clip_box_perimeter(&cells->piece);
     }
-    double(*corner)[2] = a->target.corner;
+    double(*corner)[2] = cells->target.corner;
     const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
                               (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
-    double reach = lrcsi_clip_add_moment(&a->piece, centre, a->moment.first);
-    a->reach = lrcsi_max(a->reach, reach);
+    double reach = lrcsi_clip_add_moment(&cells->piece, centre, cells->moment.first);
+    cells->reach = lrcsi_max(cells->reach, reach);
     area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
     area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                                (s->high[0] - s->low[0]) *
@@ -142,29 +145,29 @@ static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
+static int process_facet_cell(lrcsi_facet_cells *cells, lrcsi_cell *cell)
 {
-    lrcsi_division *d = &a->division;
+    lrcsi_division *d = &cells->division;
     lrcsi_clip_sides s;
     lrcsi_facet_cells_sample sample;
     lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
     lrcsi_cells_filter_segments(d, cell, &s);
 
     /* 1. A sample. */
-    lrcsi_facet_cells_sample_take(a, cell, &s, &sample);
+    lrcsi_facet_cells_sample_take(cells, cell, &s, &sample);
     if (sample.hidden <= 0) {
-        sample.ends = lrcsi_facet_cells_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
+        sample.ends = lrcsi_facet_cells_choose(cells, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
     /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
      */
     if (sample.hidden >= 0 && sample.ends == 0) {
-        a->area.uncertainty +=
+        cells->area.uncertainty +=
             cell->uncertainty + lrcsi_cells_thin_uncertainty(cell, &s, sample.border_distance,
                                                              cell->removed, d->facet_err);
-        a->hidden |= sample.hidden;
+        cells->hidden |= sample.hidden;
         if (!sample.hidden) {
-            add_visible_piece(a, cell, &s);
+            add_visible_piece(cells, cell, &s);
         }
         return !sample.hidden;
     }
@@ -173,9 +176,9 @@ static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
        negligible. */
     double narrow = NARROW * (cell->widest_strip + d->facet_err + s.tolerance) * s.perimeter;
     if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
-                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->halved_area, narrow) &&
+                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(cells->halved_area, narrow) &&
                        lrcsi_cells_halve(d, cell, &s))) {
-        double *perhaps = sample.guess ? &a->perhaps_hidden : &a->perhaps_visible;
+        double *perhaps = sample.guess ? &cells->perhaps_hidden : &cells->perhaps_visible;
         *perhaps += lrcsi_clip_area(&cell->shape);
     }
     return 0;
@@ -183,18 +186,18 @@ static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-int lrcsi_facet_cells_next(lrcsi_facet_cells *a)
+int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
 {
-    lrcsi_division *d = &a->division;
+    lrcsi_division *d = &cells->division;
     while (d->stack_count > 0) {
         lrcsi_cell cell = d->stack[--d->stack_count];
-        uint64_t steps = (uint64_t)1 + a->candidate_count + cell.segment_count;
-        if (a->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
-            leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
+        uint64_t steps = (uint64_t)1 + cells->candidate_count + cell.segment_count;
+        if (cells->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
+            leave_area_undecided(cells, lrcsi_clip_area(&cell.shape));
             continue;
         }
-        a->cells_left--;
-        if (process_facet_cell(a, &cell)) {
+        cells->cells_left--;
+        if (process_facet_cell(cells, &cell)) {
             return 1;
         }
     }
@@ -205,41 +208,42 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *a)
    the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
    All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
    its moment is 0. */
-static void moment_close(lrcsi_facet_cells *a, double err)
+static void moment_close(lrcsi_facet_cells *cells, double err)
 {
-    const lrcsi_target *t = &a->target;
-    double undecided = a->perhaps_hidden + a->perhaps_visible;
+    const lrcsi_target *t = &cells->target;
+    double undecided = cells->perhaps_hidden + cells->perhaps_visible;
     double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
-    double reach = lrcsi_max(a->reach, t->diameter);
-    if (a->frame.needle) {
-        a->moment.error = HUGE_VAL;
-    } else if (a->hidden || undecided > 0) {
-        a->moment.error = reach * differs;
+    double reach = lrcsi_max(cells->reach, t->diameter);
+    if (cells->frame.needle) {
+        cells->moment.error = HUGE_VAL;
+    } else if (cells->hidden || undecided > 0) {
+        cells->moment.error = reach * differs;
     } else {
-        a->moment = (lrcsi_moment){.error = reach * differs};
+        cells->moment = (lrcsi_moment){.error = reach * differs};
     }
 }
 
-lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
+lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
 {
-    const lrcsi_cell_area *found = &a->area;
-    lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
+    const lrcsi_cell_area *found = &cells->area;
+    lrcsi_incidence incidence = lrcsi_view_incidence(cells->division.view, cells->facet);
     double whole = incidence.projected;
-    double unit = a->frame.unit;
-    double err = unit * (a->border_area + found->uncertainty + found->visible_err +
-                         64 * LRCSI_U * (found->visible + a->perhaps_visible));
-    double seen = a->hidden || a->perhaps_hidden > 0
-                      ? lrcsi_min(whole, unit * (found->visible + a->perhaps_visible))
-                      : whole;
-    err += a->frame.needle ? incidence.error * whole : 0;
-    moment_close(a, err);
-    return (lrcsi_visible_area){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
-                                lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
+    double unit = cells->frame.unit;
+    double err = unit * (cells->border_area + found->uncertainty + found->visible_err +
+                         64 * LRCSI_U * (found->visible + cells->perhaps_visible));
+    double visible = cells->hidden || cells->perhaps_hidden > 0
+                         ? lrcsi_min(whole, unit * (found->visible + cells->perhaps_visible))
+                         : whole;
+    err += cells->frame.needle ? incidence.error * whole : 0;
+    moment_close(cells, err);
+    return (lrcsi_visible_area){
+        visible, lrcsi_max(0, visible - unit * cells->perhaps_visible - err),
+        lrcsi_min(whole, visible + unit * cells->perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Room for the sides of so many candidates. */
+/* Room for the sides of so many candidates; those of others are computed anew each time. */
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
    last. */
@@ -276,30 +280,30 @@ size_t lrcsi_facet_cells_need(const lrcs_prepared *p)
 }
 
 int lrcsi_facet_cells_make(lrcsi_classification *classification, lrcsi_meter *meter,
-                           const lrcsi_grid *grid, lrcs_work *work, lrcsi_facet_cells *a)
+                           const lrcsi_grid *grid, lrcs_work *work, lrcsi_facet_cells *cells)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    lrcsi_division *d = &a->division;
-    *a = (lrcsi_facet_cells){
+    lrcsi_division *d = &cells->division;
+    *cells = (lrcsi_facet_cells){
         .classification = classification, .grid = *grid, .side_room = sides_room(p)};
     d->view = classification->view;
     d->meter = meter;
     d->segment_room = (uint32_t)max_segments(p, classification->events.count);
     d->facet_lists_room = SINGLE_FACET_LISTS;
     d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)d->segment_room;
-    a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
-    a->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
-    a->order = lrcsi_work_take(work, count, 1);
-    a->contact = lrcsi_work_take(work, count, sizeof *a->contact);
-    a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
+    cells->side = lrcsi_work_take(work, cells->side_room, sizeof *cells->side);
+    cells->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    cells->order = lrcsi_work_take(work, count, 1);
+    cells->contact = lrcsi_work_take(work, count, sizeof *cells->contact);
+    cells->candidate = lrcsi_work_take(work, count, sizeof *cells->candidate);
     d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
     d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
     d->segment = lrcsi_work_take(work, d->segment_room, sizeof *d->segment);
     d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
-    if (!a->side || !a->listed.entry || !a->order || !a->contact || !a->candidate ||
-        !d->facet_lists || !d->segment_lists || !d->segment || !d->stack) {
+    if (!cells->side || !cells->listed.entry || !cells->order || !cells->contact ||
+        !cells->candidate || !d->facet_lists || !d->segment_lists || !d->segment || !d->stack) {
         return LRCS_E_MEMORY;
     }
-    return lrcsi_crossings_make(&classification->search, work, &a->crossings);
+    return lrcsi_crossings_make(&classification->search, work, &cells->crossings);
 }

@@ -15,58 +15,59 @@
 /* --- candidates ------------------------------------------------------------------------------- */
 
 /* May a facet be in front of f? */
-static int is_candidate(const lrcsi_facet_cells *a, uint32_t other)
+static int is_candidate(const lrcsi_facet_cells *cells, uint32_t other)
 {
-    return lrcsi_marked(&a->listed, other) && a->order[other] != LRCSI_ORDER_DISJOINT;
+    return lrcsi_marked(&cells->listed, other) && cells->order[other] != LRCSI_ORDER_DISJOINT;
 }
 
 /* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
    overlap. */
-int lrcsi_facet_cells_order(const lrcsi_facet_cells *a, uint32_t other)
+int lrcsi_facet_cells_order(const lrcsi_facet_cells *cells, uint32_t other)
 {
-    const lrcsi_view *view = a->division.view;
-    int order = lrcsi_sample_side(view, other, a->facet);
+    const lrcsi_view *view = cells->division.view;
+    int order = lrcsi_sample_side(view, other, cells->facet);
     if (order == 0) {
         const lrcsi_intersection *contact =
-            lrcsi_intersection_find(&view->prepared->intersections, a->facet, other);
-        order = contact && !lrcsi_sample_contact_hides(view, a->facet, contact)
+            lrcsi_intersection_find(&view->prepared->intersections, cells->facet, other);
+        order = contact && !lrcsi_sample_contact_hides(view, cells->facet, contact)
                     ? -1
-                    : lrcsi_sample_overlap_order(view, other, a->facet);
+                    : lrcsi_sample_overlap_order(view, other, cells->facet);
     }
     return order > 0 ? LRCSI_ORDER_FRONT : order < 0 ? LRCSI_ORDER_BEHIND : LRCSI_ORDER_UNDECIDED;
 }
 
 /* Does another facet lie entirely beyond one side of f? */
-static int facet_apart(const lrcsi_facet_cells *a, const lrcsi_view_side own[3], uint32_t other)
+static int facet_apart(const lrcsi_facet_cells *cells, const lrcsi_view_side own[3], uint32_t other)
 {
-    const lrcsi_view *view = a->division.view;
-    const uint32_t *its = view->prepared->scene->facet[other].corner;
+    const lrcsi_view *view = cells->division.view;
+    const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
-            const lrcsi_view_vertex *at = &view->point[its[i]];
-            apart = view->facing[a->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
+            const lrcsi_view_vertex *at = &view->point[corner[i]];
+            apart =
+                view->facing[cells->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
         }
     }
     return apart;
 }
 
-int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
+int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
 {
-    const lrcsi_grid *grid = &a->grid;
-    lrcsi_division *d = &a->division;
-    lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
+    const lrcsi_grid *grid = &cells->grid;
+    lrcsi_division *d = &cells->division;
+    lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, cells->facet);
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
-    const uint32_t *corner = d->view->prepared->scene->facet[a->facet].corner;
+    const uint32_t *corner = d->view->prepared->scene->facet[cells->facet].corner;
     lrcsi_view_side side[3];
     for (int k = 0; k < 3; k++) {
         side[k] = lrcsi_view_side_of(d->view, corner[k], corner[k == 2 ? 0 : k + 1]);
     }
-    a->candidate_count = 0;
-    lrcsi_marks_clear(&a->listed, d->view->prepared->scene->facet_count);
-    a->listed.entry[a->facet] = a->listed.number;
-    a->order[a->facet] = LRCSI_ORDER_DISJOINT;
+    cells->candidate_count = 0;
+    lrcsi_marks_clear(&cells->listed, d->view->prepared->scene->facet_count);
+    cells->listed.entry[cells->facet] = cells->listed.number;
+    cells->order[cells->facet] = LRCSI_ORDER_DISJOINT;
     lrcsi_grid_items items;
     while (lrcsi_grid_next_row(grid, &buckets, &items)) {
         if (!lrcsi_meter_take(d->meter, items.to - items.from)) {
@@ -74,21 +75,21 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
-            const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
-            if (lrcsi_marked(&a->listed, other) || lrcsi_view_box_beside(its, &box) ||
-                lrcsi_view_box_behind(its, &box)) {
+            const lrcsi_view_box *other_box = lrcsi_boxes_facet(&grid->boxes, other);
+            if (lrcsi_marked(&cells->listed, other) || lrcsi_view_box_beside(other_box, &box) ||
+                lrcsi_view_box_behind(other_box, &box)) {
                 continue;
             }
-            a->listed.entry[other] = a->listed.number;
-            a->order[other] = LRCSI_ORDER_DISJOINT;
-            if (!facet_apart(a, side, other)) {
-                int front = lrcsi_view_box_behind(&box, its);
-                a->order[other] =
+            cells->listed.entry[other] = cells->listed.number;
+            cells->order[other] = LRCSI_ORDER_DISJOINT;
+            if (!facet_apart(cells, side, other)) {
+                int front = lrcsi_view_box_behind(&box, other_box);
+                cells->order[other] =
                     front ? (uint32_t)LRCSI_ORDER_FRONT : (uint32_t)LRCSI_ORDER_NOT_COMPUTED;
-                if (a->candidate_count < a->side_room) {
-                    a->side[a->candidate_count][0].err = -1; /* not made yet */
+                if (cells->candidate_count < cells->side_room) {
+                    cells->side[cells->candidate_count][0].err = -1; /* not made yet */
                 }
-                a->candidate[a->candidate_count++] = other;
+                cells->candidate[cells->candidate_count++] = other;
             }
         }
     }
@@ -118,14 +119,14 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
 }
 
 /* Is neither of an edge's facets in front of f anywhere? */
-static int edge_is_behind(lrcsi_facet_cells *a, const uint32_t owner[2])
+static int edge_is_behind(lrcsi_facet_cells *cells, const uint32_t owner[2])
 {
     int behind = 1;
     for (int i = 0; i < 2 && behind; i++) {
-        if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
-            unsigned char *order = &a->order[owner[i]];
+        if (owner[i] != LRCS_NONE && is_candidate(cells, owner[i])) {
+            unsigned char *order = &cells->order[owner[i]];
             if (*order == LRCSI_ORDER_NOT_COMPUTED) {
-                *order = (unsigned char)lrcsi_facet_cells_order(a, owner[i]);
+                *order = (unsigned char)lrcsi_facet_cells_order(cells, owner[i]);
             }
             behind = *order == LRCSI_ORDER_BEHIND;
         }
@@ -134,28 +135,28 @@ static int edge_is_behind(lrcsi_facet_cells *a, const uint32_t owner[2])
 }
 
 /* Adds an edge, unless its facets are behind f. 0 if there is no room. */
-static int add_facet_edge(lrcsi_facet_cells *a, uint32_t edge)
+static int add_facet_edge(lrcsi_facet_cells *cells, uint32_t edge)
 {
-    lrcsi_division *d = &a->division;
+    lrcsi_division *d = &cells->division;
     const lrcs_prepared *p = d->view->prepared;
     const lrcsi_edge *of = &p->topology.edge[edge];
     lrcsi_cells_segment *e = lrcsi_division_edge(d, edge);
     if (!e) {
         return 0;
     }
-    if (e->edge == LRCS_NONE && edge_is_behind(a, e->owner)) {
+    if (e->edge == LRCS_NONE && edge_is_behind(cells, e->owner)) {
         d->segment_count--;
         return 1;
     }
     double end[2][2];
     const double *from = p->vertex[of->low].x;
     const double *to = p->vertex[of->high].x;
-    if (a->frame.needle) {
-        e->err = needle_segment_err(lrcsi_needle_segment(a->frame.needle, from, to, end));
+    if (cells->frame.needle) {
+        e->err = needle_segment_err(lrcsi_needle_segment(cells->frame.needle, from, to, end));
     } else {
-        const double away[2] = {lrcsi_target_coordinates(&a->frame, from, end[0]),
-                                lrcsi_target_coordinates(&a->frame, to, end[1])};
-        e->err = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
+        const double away[2] = {lrcsi_target_coordinates(&cells->frame, from, end[0]),
+                                lrcsi_target_coordinates(&cells->frame, to, end[1])};
+        e->err = 32 * LRCSI_U * lrcsi_target_segment(&cells->frame, end, away);
     }
     segment_ends(e, (const double(*)[2])end);
     return 1;
@@ -163,20 +164,20 @@ static int add_facet_edge(lrcsi_facet_cells *a, uint32_t edge)
 
 /* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
    if there is no room. */
-static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
+static int add_facet_contact(lrcsi_facet_cells *cells, uint32_t other)
 {
-    lrcsi_division *d = &a->division;
+    lrcsi_division *d = &cells->division;
     lrcsi_contact contact;
-    int side = lrcsi_sample_side(d->view, other, a->facet);
-    int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
-    a->order[other] = side > 0   ? LRCSI_ORDER_FRONT
-                      : side < 0 ? LRCSI_ORDER_BEHIND
-                                 : LRCSI_ORDER_NOT_COMPUTED;
+    int side = lrcsi_sample_side(d->view, other, cells->facet);
+    int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&cells->frame, other, &contact);
+    cells->order[other] = side > 0   ? LRCSI_ORDER_FRONT
+                          : side < 0 ? LRCSI_ORDER_BEHIND
+                                     : LRCSI_ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
-        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? LRCSI_ORDER_FRONT
-                          : kind == LRCSI_CONTACT_UNKNOWN ? LRCSI_ORDER_UNDECIDED
-                                                          : LRCSI_ORDER_CONTACT;
-        a->contact[other] = d->segment_count;
+        cells->order[other] = kind == LRCSI_CONTACT_FLAT      ? LRCSI_ORDER_FRONT
+                              : kind == LRCSI_CONTACT_UNKNOWN ? LRCSI_ORDER_UNDECIDED
+                                                              : LRCSI_ORDER_CONTACT;
+        cells->contact[other] = d->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
         return 1;
@@ -184,7 +185,7 @@ static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = add_facet_edge(a, d->view->prepared->topology.facet_edge[other].corner[k]);
+            done = add_facet_edge(cells, d->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
@@ -192,32 +193,33 @@ static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
     if (!e) {
         return 0;
     }
-    e->err = a->frame.needle ? needle_segment_err(contact.corner_err + contact.position_err)
-                             : 32 * LRCSI_U * contact.reach + contact.position_err;
-    e->owner[0] = a->facet;
+    e->err = cells->frame.needle ? needle_segment_err(contact.corner_err + contact.position_err)
+                                 : 32 * LRCSI_U * contact.reach + contact.position_err;
+    e->owner[0] = cells->facet;
     e->owner[1] = other;
     e->contact = kind;
     segment_ends(e, (const double(*)[2])contact.end);
     return 1;
 }
 
-int lrcsi_facet_cells_segments(lrcsi_facet_cells *a)
+int lrcsi_facet_cells_segments(lrcsi_facet_cells *cells)
 {
-    lrcsi_division *d = &a->division;
+    lrcsi_division *d = &cells->division;
     const lrcsi_intersections *intersections = &d->view->prepared->intersections;
-    for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
+    for (uint32_t i = intersections->first[cells->facet];
+         i < intersections->first[cells->facet + 1]; i++) {
         const lrcsi_intersection *contact = &intersections->entry[i];
-        if (is_candidate(a, contact->other) &&
-            lrcsi_sample_contact_hides(d->view, a->facet, contact) &&
-            !add_facet_contact(a, contact->other)) {
+        if (is_candidate(cells, contact->other) &&
+            lrcsi_sample_contact_hides(d->view, cells->facet, contact) &&
+            !add_facet_contact(cells, contact->other)) {
             return 0;
         }
     }
-    lrcsi_crossings_find(&a->classification->search, a->facet, d->meter, &a->crossings);
-    for (uint32_t i = 0; i < a->crossings.count; i++) {
-        if (!add_facet_edge(a, a->crossings.edge[i])) {
+    lrcsi_crossings_find(&cells->classification->search, cells->facet, d->meter, &cells->crossings);
+    for (uint32_t i = 0; i < cells->crossings.count; i++) {
+        if (!add_facet_edge(cells, cells->crossings.edge[i])) {
             return 0;
         }
     }
-    return lrcsi_meter_take(d->meter, (uint64_t)a->candidate_count + d->segment_count);
+    return lrcsi_meter_take(d->meter, (uint64_t)cells->candidate_count + d->segment_count);
 }

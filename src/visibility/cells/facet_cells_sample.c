@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
-   segment the cell is best cut. What follows for the cell is decided in visibility/cells/facet_cells.c.
- */
+   segment the cell is best cut. What follows for the cell is decided in
+   visibility/cells/facet_cells.c. */
 #include "visibility/cells/facet_cells_sample.h"
 
 #include <math.h>
@@ -16,20 +16,21 @@
 #include "visibility/sample.h"
 
 /* The sides of a candidate need better error bounds if its farthest corner is more than this many
-   times as far away as its nearest corner and the reach of f together. */
+   times as far away as its nearest corner and the reach of f together. Heuristic: both bounds hold
+   in any case. */
 #define FAR_RATIO 64
 
-uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                                   const double at[2], uint32_t component,
                                   const lrcsi_cells_segment **best)
 {
-    const lrcsi_topology *topology = &a->division.view->prepared->topology;
-    const lrcsi_marks of_component = {a->classification->component, component};
+    const lrcsi_topology *topology = &cells->division.view->prepared->topology;
+    const lrcsi_marks of_component = {cells->classification->component, component};
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
-        const lrcsi_cells_segment *e = &a->division.segment[cell->segment[i]];
+        const lrcsi_cells_segment *e = &cells->division.segment[cell->segment[i]];
         int matters = component == LRCS_NONE;
         if (!matters) {
             matters = e->contact ? lrcsi_marked(&of_component, e->owner[1])
@@ -49,15 +50,15 @@ uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void sample_unproject(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
+static void sample_unproject(const lrcsi_facet_cells *cells, lrcsi_facet_cells_sample *sample)
 {
-    const lrcs_prepared *p = a->division.view->prepared;
+    const lrcs_prepared *p = cells->division.view->prepared;
     double weight[3];
-    lrcsi_target_weights(&a->frame, sample->at, weight);
+    lrcsi_target_weights(&cells->frame, sample->at, weight);
     for (int k = 0; k < 3; k++) {
         sample->point[k] = 0;
         for (int i = 0; i < 3; i++) {
-            sample->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
+            sample->point[k] += weight[i] * lrcsi_prepared_corner(p, cells->facet, i)[k];
         }
     }
     sample->test = LRCSI_TEST_EXACT;
@@ -66,24 +67,24 @@ static void sample_unproject(const lrcsi_facet_cells *a, lrcsi_facet_cells_sampl
 /* Places the sample in the view: f's first corner plus the vector from there. The vector has the
    error of f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the
    frame's position error. */
-static void sample_place(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
+static void sample_place(const lrcsi_facet_cells *cells, lrcsi_facet_cells_sample *sample)
 {
     double first[3];
-    lrcsi_view_coordinates(a->division.view, a->target.origin, first);
-    lrcsi_target_to_axes(&a->frame, sample->at, sample->view);
+    lrcsi_view_coordinates(cells->division.view, cells->target.origin, first);
+    lrcsi_target_to_axes(&cells->frame, sample->at, sample->view);
     sample->view[0] += first[0];
     sample->view[1] += first[1];
     sample->view[2] = first[2];
     sample->view_err = lrcsi_view_point_err(first) + sample->err +
-                       (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach;
-    sample->box = lrcsi_view_box_about(a->division.view, sample->view, sample->view_err);
+                       (16 * LRCSI_U + 2 * cells->frame.position_err) * cells->target.reach;
+    sample->box = lrcsi_view_box_about(cells->division.view, sample->view, sample->view_err);
 }
 
 /* Does the sample lie beyond a side of a facet, by view coordinates? */
-static int sample_is_beyond(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
+static int sample_is_beyond(const lrcsi_facet_cells *cells, const lrcsi_facet_cells_sample *sample,
                             uint32_t other)
 {
-    const lrcsi_view *view = a->division.view;
+    const lrcsi_view *view = cells->division.view;
     const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int beyond = 0;
     for (int k = 0; k < 3 && !beyond; k++) {
@@ -102,10 +103,11 @@ static int sample_is_beyond(const lrcsi_facet_cells *a, const lrcsi_facet_cells_
    rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
    length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
    1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
-static void sides_make(const lrcsi_facet_cells *a, uint32_t other, lrcsi_facet_cells_side side[3])
+static void sides_make(const lrcsi_facet_cells *cells, uint32_t other,
+                       lrcsi_facet_cells_side side[3])
 {
-    const lrcsi_target *frame = &a->frame;
-    const lrcsi_view *view = a->division.view;
+    const lrcsi_target *frame = &cells->frame;
+    const lrcsi_view *view = cells->division.view;
     double corner[3][2];
     double reach[3];
     double length[3];
@@ -153,19 +155,19 @@ static void sides_make(const lrcsi_facet_cells *a, uint32_t other, lrcsi_facet_c
    side. The sides are computed when they are first needed, and kept as far as there is room. In a
    needle, whose points have the frame's position error, lines in plain doubles nearly always
    suffice. */
-static int sides_cover(lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
+static int sides_cover(lrcsi_facet_cells *cells, const lrcsi_facet_cells_sample *sample,
                        uint32_t candidate, double tolerance)
 {
-    const lrcsi_needle *needle = a->frame.needle;
-    const lrcsi_view *view = a->division.view;
-    uint32_t other = a->candidate[candidate];
+    const lrcsi_needle *needle = cells->frame.needle;
+    const lrcsi_view *view = cells->division.view;
+    uint32_t other = cells->candidate[candidate];
     if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
     lrcsi_facet_cells_side made[3] = {{.err = -1}};
-    lrcsi_facet_cells_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    lrcsi_facet_cells_side *sides = candidate < cells->side_room ? cells->side[candidate] : made;
     if (sides[0].err < 0) {
-        sides_make(a, other, sides);
+        sides_make(cells, other, sides);
     }
     int inside = 1;
     int guess = sample->test == LRCSI_TEST_GUESSED;
@@ -188,12 +190,13 @@ static int sides_cover(lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sam
 
 /* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
    sample is near the line in which they intersect. */
-static int candidate_in_front(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
-                              uint32_t other, double tolerance)
+static int candidate_in_front(const lrcsi_facet_cells *cells,
+                              const lrcsi_facet_cells_sample *sample, uint32_t other,
+                              double tolerance)
 {
-    int order = a->order[other];
+    int order = cells->order[other];
     if (order == LRCSI_ORDER_CONTACT) {
-        const lrcsi_cells_segment *e = &a->division.segment[a->contact[other]];
+        const lrcsi_cells_segment *e = &cells->division.segment[cells->contact[other]];
         double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
         double w = sample->test == LRCSI_TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
         int side = left > w ? 1 : left < -w ? -1 : 0;
@@ -207,26 +210,26 @@ static int candidate_in_front(const lrcsi_facet_cells *a, const lrcsi_facet_cell
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
    a segment of the component with the fewest segments in the cell; a component with none ends the
    search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
-static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
-                            lrcsi_facet_cells_sample *sample)
+static int sample_is_hidden(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
+                            const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
     sample->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < a->candidate_count && sample->ends > 0; i++) {
-        uint32_t other = a->candidate[i];
-        uint32_t component = a->classification->component[other];
-        unsigned char *order = &a->order[other];
+    for (uint32_t i = 0; i < cells->candidate_count && sample->ends > 0; i++) {
+        uint32_t other = cells->candidate[i];
+        uint32_t component = cells->classification->component[other];
+        unsigned char *order = &cells->order[other];
         if (*order == LRCSI_ORDER_BEHIND ||
-            lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other)) ||
-            (a->frame.needle && sample_is_beyond(a, sample, other))) {
+            lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
+            (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
             continue;
         }
-        int covered = sides_cover(a, sample, i, s->tolerance);
+        int covered = sides_cover(cells, sample, i, s->tolerance);
         if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
-            *order = (unsigned char)lrcsi_facet_cells_order(a, other);
+            *order = (unsigned char)lrcsi_facet_cells_order(cells, other);
         }
-        int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
+        int front = covered >= 0 ? candidate_in_front(cells, sample, other, s->tolerance) : -1;
         if (front < 0 || (answer > 0 && component == last)) {
             continue;
         }
@@ -235,7 +238,7 @@ static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const 
             continue;
         }
         const lrcsi_cells_segment *cut;
-        uint32_t ends = lrcsi_facet_cells_choose(a, cell, sample->at, component, &cut);
+        uint32_t ends = lrcsi_facet_cells_choose(cells, cell, sample->at, component, &cut);
         if (ends < sample->ends) {
             sample->ends = ends;
             sample->cut = cut;
@@ -246,11 +249,11 @@ static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const 
     return answer;
 }
 
-void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                                    const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
 {
-    double margin = 4 * (cell->widest_strip + a->division.facet_err + s->tolerance);
-    double unproject_err = lrcsi_target_unproject_err(&a->target);
+    double margin = 4 * (cell->widest_strip + cells->division.facet_err + s->tolerance);
+    double unproject_err = lrcsi_target_unproject_err(&cells->target);
     int hidden = -1;
     for (int t = 0; t < LRCSI_SAMPLES && hidden < 0; t++) {
         *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_BOUNDED};
@@ -259,24 +262,25 @@ void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
         if (!(sample->border_distance > margin)) {
             continue;
         }
-        sample_place(a, sample);
-        hidden = sample_is_hidden(a, cell, s, sample);
-        if (hidden < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
-            sample_unproject(a, sample);
+        sample_place(cells, sample);
+        hidden = sample_is_hidden(cells, cell, s, sample);
+        if (hidden < 0 && !cells->frame.needle &&
+            sample->border_distance > margin + unproject_err) {
+            sample_unproject(cells, sample);
             sample->err = unproject_err;
-            sample_place(a, sample);
+            sample_place(cells, sample);
             sample->border_distance -= unproject_err;
-            hidden = sample_is_hidden(a, cell, s, sample);
+            hidden = sample_is_hidden(cells, cell, s, sample);
         }
     }
     int guess = hidden;
     if (hidden < 0) {
         *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
-        sample_unproject(a, sample);
+        sample_unproject(cells, sample);
         sample->test = LRCSI_TEST_GUESSED;
-        sample_place(a, sample);
-        guess = sample_is_hidden(a, cell, s, sample) > 0;
+        sample_place(cells, sample);
+        guess = sample_is_hidden(cells, cell, s, sample) > 0;
     }
     sample->hidden = hidden;
     sample->guess = guess;

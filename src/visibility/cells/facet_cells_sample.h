@@ -28,14 +28,14 @@ typedef struct lrcsi_facet_cells_sample {
 } lrcsi_facet_cells_sample;
 
 /* Takes samples in the cell until one is decided, and returns the last one. */
-void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                                    const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample);
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
    or meets f count.
    Returns how many there are to choose from. */
-uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                                   const double at[2], uint32_t component,
                                   const lrcsi_cells_segment **best);
 

@@ -8,12 +8,13 @@
 #include "base/constant.h"
 #include "base/dd.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "view/product.h"
 #include "visibility/clip.h"
 
 /* A point counts as far if its distance is more than this many times that of the points with which
-   it is compared. */
+   it is compared. Heuristic: the errors returned hold for either choice. */
 #define FAR_POINT 8.0
 
 /* The position of a scene point that is much deeper, or much nearer, than the origin. The rows r of
@@ -170,8 +171,9 @@ double lrcsi_target_unproject_err(const lrcsi_target *t)
    r |d| |g| / T.
 
    A clipped end is from + t (to - from), a difference, a product and a sum: 13 u^2 of 2 s, where s
-   is the larger coordinate. If t comes from heights (visibility/cells/contact.c), its quotient of rounded
-   sums adds 30 u^2 of 2 s. The total is at most 137 u^2 r |d| |g| / T, less than NEEDLE_ERR. */
+   is the larger coordinate. If t comes from heights (visibility/cells/contact.c), its quotient of
+   rounded sums adds 30 u^2 of 2 s. The total is at most 137 u^2 r |d| |g| / T, less than
+   NEEDLE_ERR. */
 #define NEEDLE_ERR (160 * LRCSI_U * LRCSI_U)
 
 /* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). This exceeds by
@@ -365,8 +367,8 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
                                   .origin = t->origin,
                                   .corner = {{0, 0}, {1, 0}, {0, 1}},
                                   .size = 1,
-                                  .diameter = 1.4143,
-                                  .perimeter = 3.4143,
+                                  .diameter = LRCSI_ROOT_2_OUTWARD,
+                                  .perimeter = 2 + LRCSI_ROOT_2_OUTWARD,
                                   .position_err = needle->relative_err * needle->reach,
                                   .unit = 2 * lrcsi_view_incidence(t->view, t->facet).projected,
                                   .needle = needle};

@@ -13,14 +13,14 @@ typedef struct lrcsi_events {
     uint32_t count;
 } lrcsi_events;
 
-/* The facets on an edge: those that can hide something in the view or, of one part, all live ones. */
+/* The facets on an edge: those that can hide something in the view or, of one part, all live
+   ones. */
 typedef struct lrcsi_edge_facets {
     uint32_t count;
-    uint32_t facet[2]; /* the first two of them; LRCS_NONE for those that do not exist */
-    uint32_t forward;  /* how many traverse the edge from low to high */
-    uint32_t left,
-        right; /* how many lie to the left of it in projection, seen from low to high, and
-                             how many to the right; the others are seen edge-on */
+    uint32_t facet[2];    /* the first two of them; LRCS_NONE for those that do not exist */
+    uint32_t forward;     /* how many traverse the edge from low to high */
+    uint32_t left, right; /* how many lie to the left of it in projection, looking from low to high,
+                             and how many to the right; the others are edge-on */
 } lrcsi_edge_facets;
 
 /* part: LRCS_NONE, or a part of the scene. A facet lies to the left of its side in projection if it

@@ -11,7 +11,8 @@
 #include "visibility/index/event.h"
 #include "visibility/index/lists.h"
 
-/* The largest number of buckets along a side. */
+/* The largest number of buckets along a side: their numbers must fit 16 bits, and the lists of so
+   many fit ordinary memory. */
 #define MAX_SIZE 2048
 /* Buckets to be read are marked by one bit each. */
 #define NEEDED_BITS 32u

@@ -18,6 +18,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 
@@ -94,5 +95,5 @@ double lrcsi_order_unproved(const lrcsi_order_proof *proof, const lrcs_prepared 
     }
     double area = 0.5 * p->normal[facet].length;
     double fraction = 2 * (below + 16 * LRCSI_U) / (high - low) + proof->slab / area;
-    return fraction < 1 ? fraction * (1 + 16 * LRCSI_U) : 1;
+    return fraction < 1 ? fraction * LRCSI_OUTWARD(16) : 1;
 }

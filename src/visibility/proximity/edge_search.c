@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/outward.h"
 #include "base/range.h"
 #include "visibility/proximity/edge_rectangle.h"
 
@@ -27,7 +28,7 @@ static void search_line(lrcsi_edge_search *search, int side, const double *const
         highest = lrcsi_max(
             highest, lrcsi_edge_search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
     }
-    search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
+    search->limit[side] = length > 0 ? highest + near * LRCSI_OUTWARD_SUM : HUGE_VAL;
 }
 
 lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_grid *grid,

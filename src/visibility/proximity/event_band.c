@@ -42,8 +42,8 @@
    4. Parts in front. Where a Q with at most one opening is in front of the plane of a flat facet,
    or a plane separates it from P behind it (visibility/proximity/part_order.c), (1) need not be
    considered, and y is gained or lost along the event edge of (2) that is nearest to it, and there
-   only within the region of outline.h, 2. In it delta is the distance in projection of x from y,
-   and for the plane of a facet the error of outline.h, 1, as well. So along each edge the smaller
+   only within the region of outline.c, 2. In it delta is the distance in projection of x from y,
+   and for the plane of a facet the error of outline.c, 1, as well. So along each edge the smaller
    of two areas counts: that of the rectangle and that of the region.
 
    5. Aligned points. Let x now be the point of the true surface whose projection is that of

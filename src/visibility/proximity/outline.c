@@ -1,31 +1,62 @@
 /* SPDX-License-Identifier: MIT */
-/* Support points of true shapes, and the areas between their outlines and an edge. outline.h proves
-   what these areas bound. Every area is enlarged by the errors of the points that it is computed
-   from. */
+/* Decides where a true solid is farthest in directions of the view plane, and from that how much
+   area lies between its outline and an edge of its facets. Every area is enlarged by the errors of
+   the points that it is computed from. Which points of which facets are concerned is decided in
+   visibility/proximity/event_band.c.
+
+   Q, B, S^, k, K, K' and delta are those of outline.h. A line along the direction to the laser that
+   meets B or S^ also meets the true surface or the facets: it cannot both enter and leave through
+   the same opening. The boundary of K' consists of contour edges of Q, because only there the
+   number of facets of S^ that face the laser above a point can fall to 0; and of rim edges, except
+   where the opening faces the laser as the wall beside it does, or both face away.
+
+   1. In front of a plane. Let P be a plane, and B and S^ in front of it: no point of them is behind
+   it by more than e, and some point of B is in front of it by h. Then Q hides a point x of P if its
+   projection lies in K, unless it is within e diameter(B) / h of the outside of K; and x only then.
+   The same holds for the facets and K'. Proof: let B+ be the part of B in front of P. What lies on
+   the ray of x lies in front of P, so Q hides x if and only if x lies in the projection of B+. The
+   straight line from a point of B behind P to the point that is h in front of P meets P after at
+   most e / (e + h) of its length. []
+
+   2. Along an edge. Consider a contour edge of length L, and coordinates in projection: t along the
+   edge, 0 .. L, and the depth, perpendicular to it, positive towards the facets of Q. Let y be a
+   point of K' and x one outside K, or y a point outside K' and x one of K, at a distance of at most
+   delta from each other, delta <= k. Then y is within k + delta of the boundary of K'. Let the edge
+   be the one nearest to y.
+   - Gain (y in K'): the nearest point of the boundary is on the edge, so 0 <= t <= L. Let q_j be
+     points of the boundary of K, in order along it. Their polygon lies in K, so x is on the other
+     side of it, and y no farther than delta from there: where the polygon's slope is at most 1,
+     0 <= depth <= polygon(t) + sqrt(2) delta.
+   - Loss (y outside K'): the nearest point may also be an end of the edge, so
+     -2 k <= t <= L + 2 k. K lies within its tangents at the points q_j, so
+     0 <= -depth <= -tangents(t) + sqrt(2) delta.
+   The areas of these two regions are integrals over t of piecewise linear functions.
+
+   The points q_j are support points: those of B that are farthest in a direction of the view plane.
+   Their tangents are perpendicular to that direction. Here these directions are turned from the
+   edge's outward normal to either side until the point is 2 k beyond the end of the edge. */
 #include "visibility/proximity/outline.h"
 
 #include <math.h>
 
+#include "base/outward.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
 #include "view/separation.h"
 
-/* The number of support points on either side of the one in the direction of the edge's normal. */
+/* The number of support points on either side of the one in the direction of the edge's normal.
+   Heuristic: any number gives bounds, more of them narrower ones. */
 #define POINTS_SIDE 4
 #define POINTS      (2 * POINTS_SIDE + 1)
-/* Steps of the bisection for the largest slope. */
+/* Steps of the bisection for the largest slope; heuristic likewise. */
 #define BISECTIONS 20
-/* An edge that is shorter than this many Hausdorff distances is not used. */
+/* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
+   about so short an edge, 4 k longer, is hardly smaller than the rectangle. */
 #define LENGTH_MIN 8.0
 /* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
    to some 30 u. */
 #define OPENING_COS_MIN 1e-6
-/* The square root of 2, rounded up. */
-#define ROOT_2 1.4143
-/* More than the relative rounding error of a sum of areas: POINTS terms of some 10 operations each.
- */
-#define ROUNDING (1 + 0x1p-40)
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -36,13 +67,13 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
         lrcsi_proximity_openings(p, index) > 1) {
         return o;
     }
-    lrcsi_revolution shape = lrcsi_revolution_make(&part->shape, &part->divisions);
-    if (shape.step > 0 && !shape.level_zones) {
+    lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    if (body.step > 0 && !body.level_zones) {
         return o; /* its vertices are not at the true heights */
     }
     double far = 0;
     o.known = 1;
-    o.vertex_ratio = shape.vertex_ratio;
+    o.vertex_ratio = body.vertex_ratio;
     o.solid = lrcsi_body_solid(p, index);
     for (int k = 0; k < 3; k++) {
         o.origin[k] = ldexp(part->origin[k], -p->exponent);
@@ -111,12 +142,12 @@ int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int fac
     return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
 }
 
-/* An edge, and the coordinates of support points about it. */
-typedef struct edge_frame {
+/* An edge of the part in projection: where it begins, the axes of the coordinates t and depth. */
+typedef struct outline_edge {
     const lrcsi_outline *outline;
     const double *a;
     double along[2], outward[2], length;
-} edge_frame;
+} outline_edge;
 
 /* A support point: coordinates t and depth, and the slope of its tangent. */
 typedef struct outline_point {
@@ -125,7 +156,7 @@ typedef struct outline_point {
 
 /* The point of the true solid that is farthest in the direction outward + slope along of the view
    plane, in projection; the slope of its tangent is the same. */
-static outline_point outline_point_at(const edge_frame *edge, double slope)
+static outline_point outline_point_at(const outline_edge *edge, double slope)
 {
     const lrcsi_outline *o = edge->outline;
     const double w[2] = {edge->outward[0] + slope * edge->along[0],
@@ -146,19 +177,19 @@ static outline_point outline_point_at(const edge_frame *edge, double slope)
 }
 
 /* The slope, 0 .. 1 towards the given side (1: towards b), at which the support point is as far as
-   `until`; 1 if it is not that far for any of these. */
-static double slope_until(const edge_frame *edge, int side, double until)
+   t along the edge; 1 if it is not that far for any of these. */
+static double slope_reaching(const outline_edge *edge, int side, double t)
 {
     double low = 0;
     double high = 1;
-    if (side * outline_point_at(edge, 0).t >= side * until) {
+    if (side * outline_point_at(edge, 0).t >= side * t) {
         return 0;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         /* slopes of all magnitudes: the mean of logarithms first. Any slope serves; a better one
            gives narrower bounds */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
-        if (side * outline_point_at(edge, side * middle).t >= side * until) {
+        if (side * outline_point_at(edge, side * middle).t >= side * t) {
             high = middle;
         } else {
             low = middle;
@@ -182,7 +213,7 @@ static double integral_positive(double t0, double t1, double v0, double v1)
 
 /* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
    Returns 0 if the polygon is too steep. */
-static int areas_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
+static int areas_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
                      lrcsi_outline_areas *areas)
 {
     double beyond = 2 * edge->outline->k;
@@ -213,7 +244,7 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
                                              const double b[3], int side)
 {
     const lrcsi_outline_areas unknown = {HUGE_VAL, HUGE_VAL, 0};
-    edge_frame edge = {.outline = o, .a = a};
+    outline_edge edge = {.outline = o, .a = a};
     const double ab[2] = {b[0] - a[0], b[1] - a[1]};
     edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
     if (!o->known || side == 0 || !(edge.length > LENGTH_MIN * o->k)) {
@@ -223,8 +254,8 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     edge.along[1] = ab[1] / edge.length;
     edge.outward[0] = side * edge.along[1];
     edge.outward[1] = -side * edge.along[0];
-    double before = slope_until(&edge, -1, -2 * o->k);
-    double after = slope_until(&edge, 1, edge.length + 2 * o->k);
+    double before = slope_reaching(&edge, -1, -2 * o->k);
+    double after = slope_reaching(&edge, 1, edge.length + 2 * o->k);
     lrcsi_outline_areas areas = {0, 0, 0};
     outline_point last = outline_point_at(&edge, -before);
     if (last.t > -2 * o->k) { /* the end of K, or too steep */
@@ -241,9 +272,9 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     if (last.t < edge.length + 2 * o->k) {
         return unknown;
     }
-    areas.width = ROOT_2 * (edge.length + 4 * o->k);
+    areas.width = LRCSI_ROOT_2_OUTWARD * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    areas.gain = (areas.gain + err * areas.width) * ROUNDING;
-    areas.loss = (areas.loss + err * areas.width) * ROUNDING;
+    areas.gain = (areas.gain + err * areas.width) * LRCSI_OUTWARD_SUM;
+    areas.loss = (areas.loss + err * areas.width) * LRCSI_OUTWARD_SUM;
     return areas;
 }

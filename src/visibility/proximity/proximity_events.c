@@ -6,10 +6,10 @@
 #include "base/work.h"
 #include "visibility/index/event.h"
 
-/* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
-   cells. */
-#define EVENT_CELLS 4u
-/* Room for the entries of edges in cells. */
+/* The number of buckets of the grid for each event edge: the many short edges of a rim lie in few
+   of them. Heuristic: any grid finds the same. */
+#define EVENT_BUCKETS 4u
+/* Room for the entries of edges in buckets; with more, buckets are made larger. */
 #define EVENT_ENTRIES 8u
 
 /* Lists all events, each pair once; only counts them if events->edge is NULL. */
@@ -62,7 +62,7 @@ size_t lrcsi_proximity_events_need(size_t count)
 {
     size_t need =
         lrcsi_work_add(lrcsi_work_blocks(2, count, sizeof(uint32_t)), lrcsi_work_bytes(count, 1));
-    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * count, EVENT_ENTRIES * count));
+    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_BUCKETS * count, EVENT_ENTRIES * count));
 }
 
 int lrcsi_proximity_events_make(const lrcsi_view *view, lrcs_work *work,
@@ -78,7 +78,7 @@ int lrcsi_proximity_events_make(const lrcsi_view *view, lrcs_work *work,
     }
     events->edge = edge;
     list_events(view, events);
-    events->grid = lrcsi_grid_empty(view, EVENT_CELLS * events->count);
+    events->grid = lrcsi_grid_empty(view, EVENT_BUCKETS * events->count);
     return lrcsi_grid_edges(events->edge, events->count, EVENT_ENTRIES * (uint64_t)events->count,
                             work, &events->grid);
 }

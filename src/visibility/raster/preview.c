@@ -30,10 +30,10 @@ typedef struct preview_counts {
     uint32_t round; /* the round in which it was found; 0: from samples; LRCS_NONE: not found yet */
 } preview_counts;
 
-/* Facets with fewer samples than this are corrected for bias (preview_bias). */
+/* Facets with fewer samples than this are corrected for bias (preview_bias). Heuristic. */
 #define FEW_SAMPLES 16u
 
-/* Over how many adjacent facets visible fractions propagate to facets without samples. */
+/* Over how many adjacent facets visible fractions propagate to facets without samples. Heuristic. */
 enum { FRACTION_ROUNDS = 8 };
 
 typedef struct preview_job {
@@ -216,13 +216,13 @@ static void find_fractions(preview_job *job)
    fractions, and that from all samples whose owners reflect, minus the areas of facets with many
    samples. The second value has no bias, only a random error e along the outline of the reflecting
    region. So nearly all of d is corrected if d is much larger than e, and little of it if d is
-   smaller. The remaining bias is estimated as twice the
-   uncorrected part of d, because one correction is applied to facets that reflect differently, plus
-   the part of the correction that exceeds the areas to which it applies. */
+   smaller. The remaining bias is estimated as twice the uncorrected part of d, because one
+   correction is applied to facets that reflect differently, plus the part of the correction that
+   exceeds the areas to which it applies. */
 typedef struct preview_bias {
-    double reduce; /* subtracted, relative to a facet's visible area */
-    double
-        enlarge; /* added, relative to the hidden area of a facet of which something is visible */
+    double reduce;    /* subtracted, relative to a facet's visible area */
+    double enlarge;   /* added, relative to the hidden area of a facet of which something is
+                         visible */
     double remaining; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
 

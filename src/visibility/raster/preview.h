@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Visible areas at the cost of drawing, for answers that are accepted by estimate: a z-buffer of
-   N x N samples at pixel centres, whose owners are exact (visibility/raster/raster.h), and for each facet
-   the fraction of its samples that it owns. The only bounds of the area of a facet are 0 and its
-   whole projected area; the error is estimated from the pixels in which owners change. */
+   N x N samples at pixel centres, whose owners are exact (visibility/raster/raster.h), and for each
+   facet the fraction of its samples that it owns. The only bounds of the area of a facet are 0 and
+   its whole projected area; the error is estimated from the pixels in which owners change. */
 #ifndef LRCSI_PREVIEW_H
 #define LRCSI_PREVIEW_H
 

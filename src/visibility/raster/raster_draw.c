@@ -27,7 +27,8 @@
 /* The number of samples drawn at once. Samples beyond the end of a span are stored unchanged. */
 enum { LANES = 8 };
 
-/* The largest error of an ordinary facet's heights, relative to the window's side. */
+/* The largest error of an ordinary facet's heights, relative to the window's side. Heuristic: what
+   is not ordinary is drawn more slowly, with the same owners. */
 #define ORDINARY_HEIGHT 0x1p-20
 
 /* --- tiles ------------------------------------------------------------------------------------ */

@@ -138,9 +138,9 @@ static void mark_overlap(visible_job *job, const drawn_facet *f, const lrcsi_edg
     uint32_t y = other->bottom > f->edges.bottom ? other->bottom : f->edges.bottom;
     for (; y < other->top && y < f->edges.top; y++) {
         const lrcsi_pixel_span own = job->row[y].touched;
-        const lrcsi_pixel_span its = lrcsi_span_touched(other, y);
-        const uint32_t x0 = own.x0 > its.x0 ? own.x0 : its.x0;
-        const uint32_t x1 = own.x1 < its.x1 ? own.x1 : its.x1;
+        const lrcsi_pixel_span theirs = lrcsi_span_touched(other, y);
+        const uint32_t x0 = own.x0 > theirs.x0 ? own.x0 : theirs.x0;
+        const uint32_t x1 = own.x1 < theirs.x1 ? own.x1 : theirs.x1;
         memset(job->mixed + pixel_index(job, x0, y), 1, x0 < x1 ? x1 - x0 : 0);
     }
 }

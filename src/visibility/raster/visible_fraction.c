@@ -27,7 +27,7 @@
 #include "visibility/uniform/query.h"
 
 /* Fewer samples than this are few; for a long facet, fewer than four for each pixel of its length.
- */
+   Heuristic, as the next: they decide about estimates within the bounds. */
 #define FEW 16.0
 
 /* A facet whose longest side is shorter, in pixels, is small. */

@@ -1,7 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Classifies all facets: which are undecided, and which of the others form regions. The header
-   explains why this suffices. Which event edges cross a facet is decided in visibility/uniform/crossing.c;
-   how much of an undecided facet is visible, elsewhere. */
+/* Classifies all facets: which are undecided, and which of the others form regions. Which event
+   edges cross a facet is decided in visibility/uniform/crossing.c; how much of an undecided facet
+   is visible, elsewhere.
+
+   Consider a path over the interior of a facet i. The number of surfaces in front of i can change
+   along it only where the path, in projection, crosses
+     (1) an event edge (visibility/index/event.h) that is nearer than i; or
+     (2) a point where another facet meets the interior of i in space (mesh/contact/intersection.h).
+   A coplanar facet over which i has precedence hides nothing. A facet that nothing of this kind
+   crosses is uniform: one exact sample decides whether all of it is visible. The others are
+   undecided, and so are facets near so many events that these are not all tested. All tests are
+   exact, so what is stated of a uniform facet is certain.
+
+   Two uniform facets are both visible or both hidden if they share an edge that is not an event
+   edge, if no nearer event edge runs along it in projection, and if nothing else meets it in space:
+   a path from one into the other, through a point of the shared edge, crosses neither (1) nor (2).
+   They form regions, and one sample decides for a whole region.
+
+   Edges that are not event edges connect facets to components, which end at event edges only. If a
+   component is in front of one point of facet i, none of its event edges crosses i in front of it,
+   and none of its facets meets the interior of i, the component is in front of all of i. Then i is
+   hidden, even if other event edges leave it undecided (visibility/uniform/query.h). */
 #include "visibility/uniform/classify.h"
 
 #include <math.h>
@@ -13,7 +32,7 @@
 #include "visibility/sample.h"
 
 /* The largest number of rows and listed events that are examined to decide whether any event may
-   cross a meshlet. */
+   cross a meshlet. Heuristic: facets are tested one by one if more would have to be. */
 #define MESHLET_STEPS 1024u
 
 /* --- contacts --------------------------------------------------------------------------------- */

@@ -1,24 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Which facets are entirely visible or entirely hidden, and which may be visible in part.
-
-   Consider a path over the interior of a facet i. The number of surfaces in front of i can change
-   along it only where the path, in projection, crosses
-     (1) an event edge (visibility/index/event.h) that is nearer than i; or
-     (2) a point where another facet meets the interior of i in space (mesh/contact/intersection.h).
-   A coplanar facet over which i has precedence hides nothing. A facet that nothing of this kind
-   crosses is uniform: one exact sample decides whether all of it is visible. The others are
-   undecided, and so are facets near so many events that these are not all tested. All tests are
-   exact, so what is stated of a uniform facet is certain.
-
-   Two uniform facets are both visible or both hidden if they share an edge that is not an event
-   edge, if no nearer event edge runs along it in projection, and if nothing else meets it in space:
-   a path from one into the other, through a point of the shared edge, crosses neither (1) nor (2).
-   They form regions, and one sample decides for a whole region.
-
-   Edges that are not event edges connect facets to components, which end at event edges only. If a
-   component is in front of one point of facet i, none of its event edges crosses i in front of it,
-   and none of its facets meets the interior of i, the component is in front of all of i. Then i is
-   hidden, even if other event edges leave it undecided (visibility/uniform/query.h). */
+/* Which facets are uniform: entirely visible or entirely hidden, so that one exact sample decides
+   all of it; and which are undecided, because they may be visible in part. Two more facts let one
+   sample decide more than one facet:
+   - uniform facets connected across edges form regions that are all visible or all hidden;
+   - facets connected across edges that are not event edges form surface components. One that is in
+     front of a point of a facet, and that neither ends in front of the facet nor meets its
+     interior, hides all of it (visibility/uniform/query.h). */
 #ifndef LRCSI_CLASSIFY_H
 #define LRCSI_CLASSIFY_H
 
@@ -27,13 +14,13 @@
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;
-    lrcsi_events events;
-    lrcsi_event_search
-        search;        /* has the boxes of undecided facets, and of others that were tested */
-    signed char *cast; /* facet: its facing if it can hide others, otherwise 0 */
-    uint32_t
-        *component; /* facet: the first facet of its component; itself if it can hide nothing */
-    unsigned char *undecided; /* facet: 1 undecided; 0 uniform, or it has no area in this view */
+    lrcsi_events events;       /* nearest first, by their boxes */
+    lrcsi_event_search search; /* with the boxes of undecided facets, and of others that were
+                                  tested */
+    signed char *cast;         /* facet: its facing if it can hide others, otherwise 0 */
+    uint32_t *component;       /* facet: the first facet of its component; itself if it can hide
+                                  nothing */
+    unsigned char *undecided;  /* facet: 1 undecided; 0 uniform, or it has no area in this view */
     uint32_t undecided_count;
     signed char *joinable; /* facet: its facing if it is uniform and nothing runs along its sides,
                               otherwise 0 */

@@ -15,11 +15,12 @@
    at most MAX_TESTED of those whose boxes meet the facet's box. One facet in 100,000 of real models
    needs more. If facets are long and narrow or lie in a stack, a grid separates little: without a
    limit the search would take quadratic time. If the limit is reached, the facet counts as
-   undecided, which is never wrong. */
+   undecided, which is never wrong: both limits are heuristic. */
 #define MAX_LISTED 4096u
 #define MAX_TESTED 512u
 /* If a facet is in at least so many rows and columns of the grid, each row is limited to the
-   buckets between its sides: long facets across the grid meet few of the buckets of their boxes. */
+   buckets between its sides: long facets across the grid meet few of the buckets of their boxes.
+   Heuristic: with fewer rows this saves less than it takes. */
 #define MIN_ROWS 3
 
 /* --- one event edge --------------------------------------------------------------------------- */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The event edges of a view (visibility/index/event.h) that cross a facet: in projection they run through
-   its interior, and somewhere they are nearer than it. */
+/* The event edges of a view (visibility/index/event.h) that cross a facet: in projection they run
+   through its interior, and somewhere they are nearer than it. */
 #ifndef LRCSI_CROSSING_H
 #define LRCSI_CROSSING_H
 

@@ -121,8 +121,8 @@ static uint32_t line_next(query_line *line)
     for (;;) {
         const uint32_t *end = grid->item + line->items.to;
         for (const uint32_t *item = grid->item + line->items.from; item < end; item++) {
-            const lrcsi_view_box *its = lrcsi_boxes_facet(&boxes, *item);
-            if (!lrcsi_view_box_behind(its, &at) && !lrcsi_view_box_beside(its, &at) &&
+            const lrcsi_view_box *other_box = lrcsi_boxes_facet(&boxes, *item);
+            if (!lrcsi_view_box_behind(other_box, &at) && !lrcsi_view_box_beside(other_box, &at) &&
                 *item != line->facet && line_meets(line, *item)) {
                 line->items.from = (uint32_t)(item + 1 - grid->item);
                 return *item;

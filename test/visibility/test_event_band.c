@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/* The bands of a plate under a ball: what the true ball hides of it and the facets do not, or the
+   reverse, in closed form and by summation over azimuth. */
+#include "visibility/proximity/event_band.h"
+
+#include "pair.h"
+
+static lrcs_scene scene;
+static lrcs_work work;
+static lrcsi_view view;
+static lrcsi_event_bands bands;
+
+enum { BALL, PLATE };
+
+/* The ball is at the origin, the plate 2 below it. */
+static void look_at_ball(double x, double y, double z)
+{
+    static const double upright[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const lrcs_prepared *prepared =
+        pair_prepare(&ball, &plate, (const double[3]){0, 0, -2}, upright, 0, &scene, &work);
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    static unsigned char memory[1u << 20];
+    size_t need = lrcsi_event_bands_need(prepared);
+    assert_true(need > 0 && need <= sizeof memory);
+    lrcs_work room = lrcs_work_make(memory, need);
+    assert_int_equal(lrcsi_event_bands_make(&view, NULL, &room, &bands), LRCS_OK);
+    assert_true(bands.events.count > 8);
+}
+
+/* The areas between the outline of the true ball, a circle, and that of its facets: outside the
+   circle and inside it. */
+static void outline_areas(double *outside, double *inside)
+{
+    const double zero[3] = {0, 0, 0};
+    const double radius = ldexp(0.5, -view.prepared->exponent);
+    double centre[3];
+    double around = 0;
+    lrcsi_view_coordinates(&view, zero, centre);
+    *outside = *inside = 0;
+    for (uint32_t e = 0; e < bands.events.count; e++) {
+        if (bands.events.part[e] != BALL) {
+            continue;
+        }
+        const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[e]];
+        const double *a = view.point[edge->low].x;
+        const double *b = view.point[edge->high].x;
+        double start = atan2(a[1] - centre[1], a[0] - centre[0]);
+        double turn = remainder(atan2(b[1] - centre[1], b[0] - centre[0]) - start, 2 * LRCS_PI);
+        double twice =
+            fabs((a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0]));
+        for (int i = 0; i < 1000; i++) {
+            double angle = start + (i + 0.5) / 1000 * turn;
+            double across = fabs((b[0] - a[0]) * sin(angle) - (b[1] - a[1]) * cos(angle));
+            double ring =
+                0.5 * (twice / across * (twice / across) - radius * radius) * fabs(turn) / 1000;
+            *outside += fmax(0, ring);
+            *inside += fmax(0, -ring);
+        }
+        around += fabs(turn);
+    }
+    check_abs(around, 2 * LRCS_PI, 1e-9); /* the facets' outline goes round once */
+}
+
+/* Adds up the bands of both facets of the plate, as areas in projection. */
+static void band_areas(int aligned, double *gain, double *loss)
+{
+    *gain = *loss = 0;
+    for (uint32_t f = 0; f < scene.facet_count; f++) {
+        if (scene.facet_part[f] != PLATE) {
+            continue;
+        }
+        lrcsi_facet_search search = lrcsi_facet_search_make(&bands, f);
+        search.aligned = aligned;
+        for (uint32_t e = 0; e < bands.events.count; e++) {
+            lrcsi_event_band band;
+            int found = lrcsi_event_band_make(&bands, f, e, &search, &band);
+            assert_true(!found || bands.events.part[e] == BALL); /* it has no inside to be seen */
+            if (found) {
+                assert_true(band.gain >= 0 && band.loss >= 0 && band.area <= 1);
+                assert_true(band.gain <= band.area && band.loss <= band.area);
+                *gain += band.gain * lrcsi_view_projected(&view, f);
+                *loss += band.loss * lrcsi_view_projected(&view, f);
+            }
+        }
+    }
+}
+
+/* The bands contain it, and are not many times larger: the ball is in front of the plate, so that
+   they follow from the outlines. */
+static void bands_contain_what_lies_between_outlines(void **state)
+{
+    (void)state;
+    static const double from[4][3] = {{0, 0, 1}, {0.2, 0.1, 1}, {-0.3, 0.25, 1}, {0.05, -0.4, 1}};
+    for (int i = 0; i < 4; i++) {
+        double outside;
+        double inside;
+        look_at_ball(from[i][0], from[i][1], from[i][2]);
+        outline_areas(&outside, &inside);
+        assert_true(outside > 0 && inside > 0);
+        for (int aligned = 0; aligned < 2; aligned++) {
+            double gain;
+            double loss;
+            band_areas(aligned, &gain, &loss);
+            check_most(outside, gain);
+            check_most(inside, loss);
+            check_most(gain, 1.25 * outside);
+            check_most(loss, 1.25 * inside);
+        }
+    }
+}
+
+/* The sides of all facets of the plate that are near an event edge. */
+static void check_sides(int near_diagonal)
+{
+    for (uint32_t f = 0; f < scene.facet_count; f++) {
+        if (scene.facet_part[f] != PLATE) {
+            continue;
+        }
+        lrcsi_facet_search search = lrcsi_facet_search_make(&bands, f);
+        unsigned sides = 0;
+        for (uint32_t e = 0; e < bands.events.count; e++) {
+            sides |= lrcsi_event_sides(&bands, f, e, &search);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *a = lrcsi_prepared_corner(view.prepared, f, k);
+            const double *b = lrcsi_prepared_corner(view.prepared, f, (k + 1) % 3);
+            if (a[0] != b[0] && a[1] != b[1]) {
+                assert_int_equal(sides >> k & 1, near_diagonal);
+            }
+        }
+        assert_true(near_diagonal || sides == 0);
+    }
+}
+
+/* From above, the shadow of the ball falls on the diagonal of the plate; from the side, beside the
+   plate. */
+static void an_event_edge_is_near_the_sides_that_its_shadow_meets(void **state)
+{
+    (void)state;
+    look_at_ball(0, 0, 1);
+    check_sides(1);
+    look_at_ball(3, 0, 1);
+    check_sides(0);
+}
+
+/* From below, the ball is behind the plate. */
+static void what_is_behind_has_no_band(void **state)
+{
+    (void)state;
+    double gain;
+    double loss;
+    look_at_ball(0.1, 0.2, -1);
+    band_areas(0, &gain, &loss);
+    check_abs(gain, 0, 0);
+    check_abs(loss, 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bands_contain_what_lies_between_outlines),
+        cmocka_unit_test(an_event_edge_is_near_the_sides_that_its_shadow_meets),
+        cmocka_unit_test(what_is_behind_has_no_band),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
