@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
@@ -78,7 +79,7 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
     while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
         n++;
     }
-    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_ROUND_UPWARD};
+    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_OUTWARD_NANO};
 }
 
 /* Adds the integral of G over the triangle `corner`, of the given area, to a sum. The weight of a
@@ -123,7 +124,7 @@ static int triangle_centre(const pieces_job *job, const double corner[3][2],
     for (int i = 0; i < 3; i++) {
         *radius = lrcsi_max(*radius, lrcsi_length_flat(corner[i][0] - at[0], corner[i][1] - at[1]));
     }
-    *radius *= LRCSI_ROUND_UPWARD;
+    *radius *= LRCSI_OUTWARD_NANO;
     return lrcsi_round_point_make(&job->wall.surface, at, centre);
 }
 
@@ -227,7 +228,7 @@ static double facet_bound(const pieces_job *job, uint32_t facet)
     lrcsi_reflection bound = lrcsi_reflect_bound(&job->wall.brdf, atan(sqrt(incidence.tan2)),
                                                  3 * surface->part->bounds.patch.turn);
     return apart < MAX_REACHES * p->proximity.reach[p->scene->facet_part[facet]]
-               ? (bound.glint + bound.diffuse) * LRCSI_ROUND_UPWARD
+               ? (bound.glint + bound.diffuse) * LRCSI_OUTWARD_NANO
                : HUGE_VAL;
 }
 
@@ -273,11 +274,11 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                                  .diffuse = sum.diffuse,
                                  .rounding = sum.rounding,
                                  .visibility =
-                                     bound * (area.high - area.low + area_err) * LRCSI_ROUND_UPWARD,
-                                 .above = bound * lrcsi_max(0, gain) * LRCSI_ROUND_UPWARD,
-                                 .below = bound * lrcsi_max(0, loss) * LRCSI_ROUND_UPWARD,
+                                     bound * (area.high - area.low + area_err) * LRCSI_OUTWARD_NANO,
+                                 .above = bound * lrcsi_max(0, gain) * LRCSI_OUTWARD_NANO,
+                                 .below = bound * lrcsi_max(0, loss) * LRCSI_OUTWARD_NANO,
                                  .own = sum.remainder,
-                                 .most = bound * LRCSI_ROUND_UPWARD};
+                                 .most = bound * LRCSI_OUTWARD_NANO};
     return known;
 }
 
@@ -292,7 +293,7 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
 }
 
 /* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of
-   facets of such walls that face the laser. */
+   facets of such walls that show the laser their outside, or an inside that reflects. */
 static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 {
     return job->band->gain_aligned[facet] >= 0 && lrcsi_patch_exists(job->view->prepared, facet);

@@ -6,6 +6,7 @@
 
 #include "base/constant.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
@@ -136,12 +137,12 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
         to->rounding += margin.sum.rounding;
         to->own += margin.sum.remainder;
     } else {
-        to->own += side->most * margin.area * LRCSI_ROUND_UPWARD;
+        to->own += side->most * margin.area * LRCSI_OUTWARD_NANO;
     }
 }
 
-/* 1. No margin is wider than two reaches of the part. Then all facets under it meet a band of their
-   own part (visibility/proximity/event_band.c, 3).
+/* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets under
+   it meet a band of their own part (visibility/proximity/event_band.c, 3).
    2. Which facets are under which sides.
    3. The margins of the sides. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
@@ -157,6 +158,7 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
                          lrcsi_work_take(work, part->divisions.around, sizeof(rim_side))};
     lrcsi_round_sector sector;
     uint32_t number;
+    uint32_t sides = 0;
     int known = job.side != NULL;
     for (uint32_t f = from; f < to && known; f++) { /* 1 */
         if (rim_sector(&job, f, &sector, &number)) {
@@ -164,8 +166,10 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
             lrcsi_round_margin_extent(inside, &sector.side[0], &margin);
             known = margin.width <= 2 * p->proximity.reach[inside->part];
             job.side[number] = (rim_side){.facet = LRCS_NONE, .certain = 1};
+            sides++;
         }
     }
+    known = known && sides == part->divisions.around;
     for (uint32_t f = from; f < to && known; f++) { /* 2 */
         if (is_under_rim(&job, f)) {
             rim_enter(&job, terms, f);

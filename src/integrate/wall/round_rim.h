@@ -23,8 +23,8 @@
 #include "visibility/visible_area.h"
 
 /* For the wall's inside. Given: the visible areas of all facets, terms[facet_count] with all pieces.
-   Returns 0, and adds nothing, if there is no memory or a margin is wider than twice the part's
-   reach; then no facet of the inside may be in a set. */
+   Returns 0, and adds nothing, if there is no memory, a side is not known, or a margin is wider than
+   twice the part's reach; then no facet of the inside may be in a set. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
                         const lrcsi_visible_area *visible, lrcs_work *work,
                         lrcsi_round_terms *terms);

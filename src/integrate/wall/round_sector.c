@@ -7,6 +7,7 @@
 
 #include "base/elementary.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "integrate/wall/mean_rule.h"
@@ -85,11 +86,11 @@ static double side_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *si
     double h = fabs(side->half);
     if (!side->is_row && s->alpha == 0) {
         double second = h * h / s->beta;
-        *slope = second * r * LRCSI_ROUND_UPWARD;
-        return 0.5 * second * r * r * LRCSI_ROUND_UPWARD;
+        *slope = second * r * LRCSI_OUTWARD_NANO;
+        return 0.5 * second * r * r * LRCSI_OUTWARD_NANO;
     }
     double radius = side->is_row ? side->rho : sqrt(-s->gamma);
-    double grown = radius * lrcsi_exp(h * r) * LRCSI_ROUND_UPWARD;
+    double grown = radius * lrcsi_exp(h * r) * LRCSI_OUTWARD_NANO;
     *slope = h * h * r * grown;
     return 0.5 * (h * r) * (h * r) * grown;
 }
@@ -129,8 +130,8 @@ static void margin_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *si
 {
     double bend = side_bend(wall, side, r * part->half, slope);
     *width =
-        (part->apart + part->turned * r + bend) * LRCSI_ROUND_UPWARD + wall->surface.position_err;
-    *slope = (part->turned + *slope * part->half) * LRCSI_ROUND_UPWARD;
+        (part->apart + part->turned * r + bend) * LRCSI_OUTWARD_NANO + wall->surface.position_err;
+    *slope = (part->turned + *slope * part->half) * LRCSI_OUTWARD_NANO;
 }
 
 /* M for such parameters, and up to `out` times as far from the chord as the arc; and the extent. */
@@ -166,7 +167,7 @@ static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_s
         }
         error_across = lrcsi_min(error_across, 2 * m / ((2 * across + 1) * (1 - q)));
     }
-    return (error_along + error_across) * LRCSI_ROUND_UPWARD;
+    return (error_along + error_across) * LRCSI_OUTWARD_NANO;
 }
 
 /* Adds the integral over a part of a margin. */
@@ -225,7 +226,7 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
     double slope;
     *margin = (lrcsi_round_margin){.largest = 0};
     margin_bend(wall, side, &all, 1, &margin->width, &slope);
-    margin->area = (all.length + slope) * LRCSI_ROUND_UPWARD *
+    margin->area = (all.length + slope) * LRCSI_OUTWARD_NANO *
                    (2 * margin->width + margin_position_err(wall, side));
 }
 
@@ -251,7 +252,7 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
                 return 0;
             }
             double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
-            double size = bound * (part.length + slope) * LRCSI_ROUND_UPWARD;
+            double size = bound * (part.length + slope) * LRCSI_OUTWARD_NANO;
             margin->largest += 2 * size * width;
             sum->remainder += margin_remainder(wall, side, &part, along->points, across->points);
             /* the positions of both borders */

@@ -20,9 +20,6 @@ typedef struct lrcsi_round_wall {
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t part, int side);
 
-/* Covers the roundings of sums of positive terms. */
-#define LRCSI_ROUND_UPWARD (1 + 1e-9)
-
 /* Ratios of e to the largest |v| (integrate/wall/round_surface.h) for which M is computed; the smallest
    remainder is used. */
 #define LRCSI_ROUND_RATIOS 6

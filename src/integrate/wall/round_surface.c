@@ -14,13 +14,12 @@
 
 #include "base/elementary.h"
 #include "base/length.h"
+#include "base/outward.h"
 #include "base/vec3.h"
 #include "integrate/wall/patch.h"
 #include "optics/closed.h"
 #include "optics/reflect.h"
 
-/* Covers the roundings of a bound, which is a sum of positive terms. */
-#define OUTWARD (1 + 1e-6)
 /* The largest delta, as a fraction of S^2. */
 #define DELTA_MAX 0.9
 
@@ -165,10 +164,10 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
                                               lrcsi_vec3_dot(point->g, surface->axis[1]));
     const double rounding = 4 * normal_errs(surface, point->length, s) * LRCSI_PATCH_NORMAL_ERR *
                             point->length * point->length;
-    e = e * OUTWARD + surface->position_err;
+    e = e * LRCSI_OUTWARD_MICRO + surface->position_err;
     double b = e * surface->in_plane;
     double c = 2 * e * steepest + e * e;
-    double delta = (2 * s * b + b * b + surface->a * c) * OUTWARD + rounding;
+    double delta = (2 * s * b + b * b + surface->a * c) * LRCSI_OUTWARD_MICRO + rounding;
     if (!(delta < DELTA_MAX * s * s)) {
         return HUGE_VAL;
     }
@@ -177,10 +176,10 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
         return HUGE_VAL;
     }
     double dz = e * across + c / least * fabs(surface->axis[2][2]);
-    double eta = 2 * surface->beta * dz * OUTWARD + rounding;
+    double eta = 2 * surface->beta * dz * LRCSI_OUTWARD_MICRO + rounding;
     double w = point->length / s * (point->length / s);
     double u = steepest / s * (steepest / s);
-    double omega = (eta + w * delta) / (s * s - delta) * OUTWARD;
+    double omega = (eta + w * delta) / (s * s - delta) * LRCSI_OUTWARD_MICRO;
     if (!(omega <= 0.5 * w)) {
         return HUGE_VAL;
     }
@@ -194,5 +193,5 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
         double power = 0.5 * (brdf->m + 1);
         bound += brdf->B * lrcsi_exp(-power * lrcsi_log(w - omega).hi + 1e-12 * power);
     }
-    return bound * OUTWARD;
+    return bound * LRCSI_OUTWARD_MICRO;
 }
