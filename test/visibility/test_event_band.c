@@ -64,7 +64,7 @@ static void outline_areas(double *outside, double *inside)
 }
 
 /* Adds up the bands of both facets of the plate, as areas in projection. */
-static void band_areas(int aligned, double *gain, double *loss)
+static void band_areas(int correspondence, double *gain, double *loss)
 {
     *gain = *loss = 0;
     for (uint32_t f = 0; f < scene.facet_count; f++) {
@@ -72,10 +72,9 @@ static void band_areas(int aligned, double *gain, double *loss)
             continue;
         }
         lrcsi_facet_search search = lrcsi_facet_search_make(&bands, f);
-        search.aligned = aligned;
         for (uint32_t e = 0; e < bands.events.count; e++) {
             lrcsi_event_band band;
-            int found = lrcsi_event_band_make(&bands, f, e, &search, &band);
+            int found = lrcsi_event_band_make(&bands, f, e, correspondence, &search, &band);
             assert_true(!found || bands.events.part[e] == BALL); /* it has no inside to be seen */
             if (found) {
                 assert_true(band.gain >= 0 && band.loss >= 0 && band.area <= 1);
@@ -102,7 +101,7 @@ static void bands_contain_what_lies_between_outlines(void **state)
         for (int aligned = 0; aligned < 2; aligned++) {
             double gain;
             double loss;
-            band_areas(aligned, &gain, &loss);
+            band_areas(aligned ? LRCSI_ALIGNED : LRCSI_MAPPED, &gain, &loss);
             check_most(outside, gain);
             check_most(inside, loss);
             check_most(gain, 1.25 * outside);
@@ -152,7 +151,7 @@ static void what_is_behind_has_no_band(void **state)
     double gain;
     double loss;
     look_at_ball(0.1, 0.2, -1);
-    band_areas(0, &gain, &loss);
+    band_areas(LRCSI_MAPPED, &gain, &loss);
     check_abs(gain, 0, 0);
     check_abs(loss, 0, 0);
 }
