@@ -7,19 +7,29 @@
 
 #include "check.h"
 
-static inline lrcs_result recipe_run(const lrcs_recipe *recipe, const lrcs_build_options *build,
-                                     const lrcs_run_options *options, const double d[3])
+/* Returned: the prepared scene; *work: the memory that is left, behind it. */
+static inline const lrcs_prepared *recipe_prepare(const lrcs_recipe *recipe,
+                                                  const lrcs_build_options *build,
+                                                  lrcs_scene *scene, lrcs_work *work)
 {
     static unsigned char scene_area[1u << 25];
     static unsigned char run_area[1u << 27];
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    lrcs_scene scene;
     const lrcs_prepared *prepared;
+    *work = lrcs_work_make(scene_area, sizeof scene_area);
+    assert_int_equal(lrcs_scene_build(recipe, NULL, build, work, scene, NULL), LRCS_OK);
+    *work = lrcs_work_make(run_area, sizeof run_area);
+    assert_int_equal(lrcs_prepare_run(scene, work, &prepared), LRCS_OK);
+    return prepared;
+}
+
+static inline lrcs_result recipe_run(const lrcs_recipe *recipe, const lrcs_build_options *build,
+                                     const lrcs_run_options *options, const double d[3])
+{
+    lrcs_scene scene;
+    lrcs_work work;
     lrcs_pose pose;
     lrcs_result result;
-    assert_int_equal(lrcs_scene_build(recipe, NULL, build, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(run_area, sizeof run_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    const lrcs_prepared *prepared = recipe_prepare(recipe, build, &scene, &work);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, options, &work, &result, NULL, NULL), LRCS_OK);
     return result;

@@ -54,7 +54,9 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    are those of sigma, and rounding adds less than 1e-12 of the sum of their terms without signs. So
    are those of curved normals, up to the error of the cubature (curvature_estimate_m2). Those of
    shapes by their closed forms (LRCS_METHOD_CLOSED) in s and m are differences of order 8 of the
-   closed form, with errors of about 1e-9 of themselves and 1e-11 of the term. An effect left out
+   closed form, with errors of about 1e-9 of themselves and 1e-11 of the term. Those of partly
+   visible curved walls come from means over patches, corrected to first order: their error is not
+   bounded, and was 0.1 % where it was measured. An effect left out
    (lrcs_run_options.without) has derivative 0. ds is 0 if A is 0, and dm if B is 0; at s = 0 dA and
    ds are 0, the limit from above.
    2. First order: the square root of the sum of g' C g over sources (lrcs_material.source), with g

@@ -45,9 +45,19 @@ static double lit_integral(const lrcs_brdf *brdf, double radius, double slope, d
     return sum;
 }
 
-/* The shape, and a box in front of it that begins at y = edge, as seen along +z. */
-static lrcs_result half_hidden(lrcs_shape shape, const double turn[3][3], double edge,
-                               const lrcs_brdf *brdf, uint32_t facets)
+static lrcs_run_options exact_options(void)
+{
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = LRCS_METHOD_EXACT;
+    run.tolerance = 1e-9;
+    return run;
+}
+
+/* The shape, and a box in front of it that begins at y = edge, as seen along +z. Prepares them;
+   *work: the memory that is left. */
+static const lrcs_prepared *half_hidden_prepare(lrcs_shape shape, const double turn[3][3],
+                                                double edge, const lrcs_brdf *brdf, uint32_t facets,
+                                                lrcs_scene *scene, lrcs_work *work)
 {
     lrcs_recipe_part part[2];
     lrcs_recipe_material material[2] = {{.name = "skin", .brdf = *brdf},
@@ -67,10 +77,21 @@ static lrcs_result half_hidden(lrcs_shape shape, const double turn[3][3], double
     const lrcs_recipe recipe = {
         .part = part, .part_count = 2, .material = material, .material_count = 2};
     const lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
-    lrcs_run_options run = lrcs_run_options_default();
-    run.method = LRCS_METHOD_EXACT;
-    run.tolerance = 1e-9;
-    return recipe_run(&recipe, &build, &run, (const double[3]){0, 0, 1});
+    return recipe_prepare(&recipe, &build, scene, work);
+}
+
+static lrcs_result half_hidden(lrcs_shape shape, const double turn[3][3], double edge,
+                               const lrcs_brdf *brdf, uint32_t facets)
+{
+    lrcs_scene scene;
+    lrcs_work work;
+    lrcs_pose pose = lrcs_pose_default();
+    lrcs_result result;
+    const lrcs_run_options run = exact_options();
+    const lrcs_prepared *prepared =
+        half_hidden_prepare(shape, turn, edge, brdf, facets, &scene, &work);
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL), LRCS_OK);
+    return result;
 }
 
 static const lrcs_brdf brdfs[3] = {{1, 0.25, 0.3, 0.5}, {0, 1, 1, 0}, {1, 0, 0.15, 0}};
@@ -121,12 +142,89 @@ static void a_paraboloid_behind_a_straight_edge(void **state)
     check_hidden(bowl, 2 * bowl.length / bowl.radius, 0, 1e-6);
 }
 
+/* The narrowest have no means over patches, the next ones remainders that no rule makes small. */
+static void the_bound_holds_for_narrow_glints(void **state)
+{
+    (void)state;
+    static const double slopes[4] = {5e-4, 2e-3, 0.01, 0.05};
+    static const double edges[3] = {0, 0.02, -0.02};
+    const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
+    for (int i = 0; i < 12; i++) {
+        const lrcs_brdf brdf = {1, 0.25, slopes[i % 4], 0.5};
+        double truth = 4 * PI * lit_integral(&brdf, sphere.radius, 0, edges[i / 4]);
+        double whole = 4 * PI * lit_integral(&brdf, sphere.radius, 0, sphere.radius);
+        lrcs_result r = half_hidden(sphere, turns[1], edges[i / 4], &brdf, 2000);
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-9 * whole);
+    }
+}
+
+/* With any work area down to a half of what a run takes, the answer holds or there is none. */
+static void with_less_memory_the_bound_holds(void **state)
+{
+    (void)state;
+    const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
+    const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
+    const lrcs_run_options run = exact_options();
+    double truth = 4 * PI * lit_integral(&brdf, sphere.radius, 0, 0.25);
+    lrcs_scene scene;
+    lrcs_work all;
+    lrcs_pose pose = lrcs_pose_default();
+    lrcs_result r;
+    const lrcs_prepared *prepared =
+        half_hidden_prepare(sphere, turns[0], 0.25, &brdf, 600, &scene, &all);
+    lrcs_work work = all;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &r, NULL, NULL), LRCS_OK);
+    const double best = r.bound_m2;
+    const size_t most = work.peak - all.used;
+    int wider = 0;
+    for (size_t left = 100; left >= 50; left--) {
+        work = all;
+        work.size = all.used + most / 100 * left;
+        int status = lrcs_sigma_run(prepared, &pose, &run, &work, &r, NULL, NULL);
+        if (status == LRCS_OK) {
+            check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-11 * truth);
+            check_most(best, r.bound_m2 * (1 + 1e-9));
+            wider += r.bound_m2 > 2 * best;
+        } else {
+            assert_int_equal(status, LRCS_E_MEMORY);
+        }
+    }
+    assert_true(wider > 0);
+}
+
+/* sigma is linear in both amplitudes. Derivatives come from means over patches with a linear
+   correction, sigma from the visible pieces. */
+static void derivatives_in_the_amplitudes_add_up_to_sigma(void **state)
+{
+    (void)state;
+    const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
+    const lrcs_brdf brdf = {1, 0, 0.15, 0};
+    const lrcs_run_options run = exact_options();
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    lrcs_scene scene;
+    lrcs_work work;
+    lrcs_pose pose = lrcs_pose_default();
+    lrcs_result r;
+    lrcs_sensitivity d[2];
+    lrcs_uncertainty uncertainty;
+    const lrcs_prepared *prepared =
+        half_hidden_prepare(sphere, turns[0], 0.25, &brdf, 2000, &scene, &work);
+    assert_int_equal(lrcs_uncertainty_run(prepared, &pose, &run, &how, &work, &r, d, &uncertainty),
+                     LRCS_OK);
+    double truth = 4 * PI * lit_integral(&brdf, sphere.radius, 0, 0.25);
+    check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-11 * truth);
+    check_rel(brdf.A * d[0].dA + brdf.B * d[0].dB, r.sigma_m2, 2e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_behind_a_straight_edge),
         cmocka_unit_test(a_dome_behind_a_straight_edge),
         cmocka_unit_test(a_paraboloid_behind_a_straight_edge),
+        cmocka_unit_test(the_bound_holds_for_narrow_glints),
+        cmocka_unit_test(with_less_memory_the_bound_holds),
+        cmocka_unit_test(derivatives_in_the_amplitudes_add_up_to_sigma),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,12 +185,71 @@ static void outside_the_outline_there_is_no_point(void **state)
     assert_true(isinf(lrcsi_round_bound(&s, &brdf, &point, 1e-3)));
 }
 
+static void check_unknown(lrcsi_round_value value)
+{
+    assert_true(isinf(value.glint) && isinf(value.diffuse) && isinf(value.error));
+}
+
+/* Beyond the outline, so near it that rounding of the position is large, and for materials that
+   amplify rounding errors. */
+static void values_that_rounding_leaves_open_are_infinite(void **state)
+{
+    (void)state;
+    lrcs_scene scene;
+    lrcsi_round_point top;
+    const lrcs_brdf brdf = {1, 1, 0.3, 1};
+    const lrcs_brdf narrow = {1, 1, 1e-9, 1};
+    const lrcs_brdf steep = {0, 1, 1, 1e17};
+    lrcsi_view view = placed_view(LRCS_SHAPE_SPHERE, &scene);
+    lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0);
+    const double radius = sqrt(-s.gamma);
+    assert_int_equal(lrcsi_round_point_make(&s, s.view, &top), 1);
+    for (int i = 0; i < 40; i++) {
+        const double v[2] = {radius * (1 - ldexp(1, -i - 2)), 0};
+        const double beyond[2] = {radius * (1 + ldexp(1, -i - 2)), 0};
+        lrcsi_round_value at = lrcsi_round_value_make(&s, &brdf, &top, v);
+        const double complex x[2] = {s.view[0] + v[0], s.view[1]};
+        double want = creal(definition(&s, &brdf, x));
+        if (isfinite(at.error)) {
+            check_abs(at.glint + at.diffuse, want, at.error + 1e-6 * want);
+        } else {
+            check_unknown(at);
+        }
+        check_unknown(lrcsi_round_value_make(&s, &brdf, &top, beyond));
+    }
+    const double rim[2] = {radius * (1 - 0x1p-53), 0};
+    const double half[2] = {0.5 * radius, 0};
+    check_unknown(lrcsi_round_value_make(&s, &brdf, &top, rim));
+    check_unknown(lrcsi_round_value_make(&s, &narrow, &top, half));
+    check_unknown(lrcsi_round_value_make(&s, &steep, &top, half));
+}
+
+/* Along its axis a paraboloid has a point above every point of the plane, but not one whose numbers
+   overflow. */
+static void numbers_that_overflow_are_refused(void **state)
+{
+    (void)state;
+    lrcsi_round_surface s = {.alpha = 0, .beta = 0.5, .gamma = -1};
+    lrcsi_round_point point;
+    const lrcs_brdf brdf = {1, 1, 0.3, 1};
+    const double origin[2] = {0, 0};
+    const double far[2] = {1e160, 0};
+    for (int k = 0; k < 3; k++) {
+        s.axis[k][k] = 1;
+    }
+    assert_int_equal(lrcsi_round_point_make(&s, origin, &point), 1);
+    check_unknown(lrcsi_round_value_make(&s, &brdf, &point, far));
+    assert_int_equal(lrcsi_round_point_make(&s, far, &point), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_those_of_the_definition),
         cmocka_unit_test(the_bound_holds_at_complex_points),
         cmocka_unit_test(outside_the_outline_there_is_no_point),
+        cmocka_unit_test(values_that_rounding_leaves_open_are_infinite),
+        cmocka_unit_test(numbers_that_overflow_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
