@@ -11,10 +11,13 @@ build=$1
 shift
 folders=${*:-base mesh optics scene view visibility integrate}
 # shellcheck disable=SC2086
-counted=$(cd "$build/src" && find $folders -name '*.gcda' | sed "s|^|$build/src/|" | LC_ALL=C sort)
+counted=$(for folder in $folders; do
+    find "$build/src/$folder" "$build/test/$folder" -name '*.gcda' 2>/dev/null
+done | LC_ALL=C sort)
 [ -n "$counted" ] || { echo "coverage: nothing has run in $build" >&2; exit 1; }
 
-# What a header holds is compiled many times: a branch counts as taken where it was in any.
+# What a header holds is compiled many times, in tests too: a branch counts as taken where it was in
+# any.
 # shellcheck disable=SC2086
 gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" -v folders=" $folders " '
     /^ *-: *0:Source:/ {
@@ -38,7 +41,7 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" -v fold
             sub(/.*[ *]/, "", name)
             within[file] = name
         }
-        told[place] = within[file] ": " text
+        label[place] = within[file] ": " text
         if (count !~ /-/) ran[place] += count ~ /[0-9]/
     }
     ours && /^branch / { taken[place, $2] += / taken [1-9]/ }
@@ -47,7 +50,7 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" -v fold
             file = place
             sub(/:.*/, "", file)
             lines[file]++
-            idle[file] += !ran[place]
+            unrun[file] += !ran[place]
         }
         for (branch in taken) {
             split(branch, part, SUBSEP)
@@ -58,15 +61,15 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" -v fold
             if (!taken[branch]) spared[part[1]]
         }
         sorted = "LC_ALL=C sort -t : -k 1,1 -k 2,2n >" untaken
-        for (place in spared) print place ":" told[place] | sorted
+        for (place in spared) print place ":" label[place] | sorted
         close(sorted)
         form = "%-34s %6s %8s %9s %10s\n"
         printf form, "file", "lines", "not run", "branches", "not taken"
         order = "LC_ALL=C sort"
         for (file in lines) {
-            printf form, file, lines[file], idle[file], branches[file] + 0, missed[file] + 0 | order
+            printf form, file, lines[file], unrun[file], branches[file] + 0, missed[file] + 0 | order
             sum[1] += lines[file]
-            sum[2] += idle[file]
+            sum[2] += unrun[file]
             sum[3] += branches[file]
             sum[4] += missed[file]
         }
