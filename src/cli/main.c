@@ -51,7 +51,7 @@ static const char main_help[] =
     "  lrcs shape sphere --radius 1 --material 1,0.25,0.2,0.5\n";
 
 /* The end of the help of every command that writes files. */
-#define REPLACES "An output file that exists is replaced, unless it is said above that it is not.\n"
+#define REPLACES "An existing output file is replaced, unless stated otherwise above.\n"
 
 static const cli_command *command_find(const char *name)
 {

@@ -246,7 +246,9 @@ def touch(name, across, down):
     for k in range(1, steps + 1):
         ask("Input.dispatchTouchEvent", session, type="touchMove", touchPoints=[{"x": at["x"] + across * k / steps, "y": at["y"] + down * k / steps}])
     ask("Input.dispatchTouchEvent", session, type="touchEnd", touchPoints=[])
-    after = value("new Promise(done => setTimeout(() => done(%s), 400))" % place)
+    # at least 0.4 s; on a busy machine up to 6 s until something changes
+    after = value("new Promise(done => { let n = 0; const wait = () => JSON.stringify(%s) !== %s || ++n > 14 ? done(%s) : setTimeout(wait, 400); setTimeout(wait, 400) })"
+                  % (place, json.dumps(json.dumps(before, separators=(",", ":"), ensure_ascii=False)), place))
     return before[0], after[0], before[1] - after[1]
 
 

@@ -106,7 +106,7 @@ static void peaks_section(FILE *out, const report_job *job)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     cli_page_section(out, "peaks", "The brightest directions, and what contributes to them");
-    fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
+    fputs("<p>Peaks of the map: directions brighter than all their neighbours.", out);
     if (job->peaks == 0) {
         fputs(" There are none: nothing returns.</p>\n</section>\n", out);
         return;

@@ -37,8 +37,8 @@ void cli_report_sigma(FILE *out, const report_job *job)
     if (r->sigma_m2 > 0.0) {
         fact_put(out, "in decibels", "sigma_dbsm", cli_dbsm(r->sigma_m2), 8, "dBsm");
     }
-    fact_put(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, m2);
-    fact_put(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7, m2);
+    fact_put(out, "glint part", "sigma_glint_m2", r->sigma_glint_m2, 7, m2);
+    fact_put(out, "diffuse part", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7, m2);
     fputs("<div><dt>Bound, proved</dt><dd>", out);
     cli_page_bound(out, "bound_m2", r->bound_m2, 3);
     fputs(" m\xc2\xb2</dd></div>\n", out);

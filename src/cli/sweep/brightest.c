@@ -153,7 +153,7 @@ int cli_brightest_print(const lrcs_host_plan *plan, const double (*row)[2], uint
     }
     uint32_t count = lrcs_host_plan_peaks(plan, row, most, peak);
     int code = 0;
-    printf("brightest attitudes: rows that outshine all their neighbours\n%4s %10s", "#", "index");
+    printf("brightest attitudes: rows brighter than all their neighbours\n%4s %10s", "#", "index");
     for (uint32_t i = 0; i < plan->columns; i++) {
         printf(" %*s", column_width(plan, i) - (int)strlen(plan->column[i]), "");
         cli_column(plan->column[i], 0);
