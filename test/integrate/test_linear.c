@@ -10,53 +10,14 @@
 
 #include "base/rotate.h"
 #include "check.h"
+#include "patch_scene.h"
 #include "random.h"
 
-static unsigned char memory[1u << 28];
 static uint64_t seed = 1;
 
 static double between(double low, double high)
 {
     return low * pow(high / low, random_unit(&seed));
-}
-
-/* --- one shape in a view ---------------------------------------------------------------------- */
-
-typedef struct linear_scene {
-    lrcs_place place;
-    lrcs_scene scene;
-    lrcsi_view view;
-    lrcsi_plan plan;
-} linear_scene;
-
-/* The shape, placed, and a plate far away, so that it is one among others. */
-static void scene_make(const lrcs_shape *shape, double division, const lrcs_brdf *brdf,
-                       const double d[3], linear_scene *s)
-{
-    lrcs_recipe_part part[2] = {
-        {.name = "a", .material_index = -1, .place = s->place, .shape = *shape},
-        {.name = "b", .material_index = -1, .place = lrcs_place_default()}};
-    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
-    part[1].place.translate[2] = -30;
-    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = 1};
-    const lrcs_recipe recipe = {
-        .part = part, .part_count = 2, .binding = &binding, .binding_count = 1};
-    lrcs_build_options options = lrcs_build_options_default();
-    lrcs_run_options run = lrcs_run_options_default();
-    const lrcs_prepared *prepared;
-    lrcsi_clear_shapes clear;
-    lrcs_pose pose;
-    options.tolerance = division;
-    lrcs_work work = lrcs_work_make(memory, sizeof memory);
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
-    assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
-    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(
-        lrcsi_view_face(prepared, &pose, lrcsi_plan_backs(prepared, &run), &work, &s->view),
-        LRCS_OK);
-    assert_int_equal(lrcsi_view_project(&work, &s->view), LRCS_OK);
-    assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
-    s->plan = lrcsi_plan_make(&s->view, &clear, &run);
 }
 
 static lrcs_shape any_shape(void)
@@ -137,7 +98,7 @@ static double area_ratio(const strip *s)
 }
 
 /* A vector of the shape's frame, or a point relative to another one, in the view. */
-static void to_view(const linear_scene *s, const double v[3], double scale, double out[3])
+static void to_view(const patch_scene *s, const double v[3], double scale, double out[3])
 {
     double body[3];
     for (int k = 0; k < 3; k++) {
@@ -175,7 +136,7 @@ static void compare(double is, double most, double *closest, const char *what, u
 
 /* Points at equal fractions of area; regions: on one side of lines in the view, and between rows.
    Their integrals are sums over these points. */
-static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+static void patch_check(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
                         const lrcsi_linear *linear, const lrcs_patch_bounds *c, const strip *at,
                         uint64_t began)
 {
@@ -243,7 +204,7 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
 /* A few facets of one shape. */
 static void shape_check(void)
 {
-    static linear_scene s;
+    static patch_scene s;
     uint64_t began = seed;
     lrcs_shape shape = any_shape();
     const lrcs_brdf brdf = {random_unit(&seed) < 0.7 ? random_unit(&seed) : 0, random_unit(&seed),
@@ -259,7 +220,7 @@ static void shape_check(void)
         d[k] = random_unit(&seed) - 0.5;
     }
     assert_int_equal(lrcsi_rotate_euler("XYZ", euler, s.place.rotate), LRCS_OK);
-    scene_make(&shape, between(2e-3, 2e-1), &brdf, d, &s);
+    patch_scene_make(&shape, between(2e-3, 2e-1), &brdf, 1, d, &s);
     const lrcs_part *part = &s.scene.part[0];
     const lrcs_patch_bounds *c = &part->bounds.patch;
     lrcsi_revolution body = lrcsi_revolution_make(&shape, &part->divisions);
@@ -298,7 +259,7 @@ static void f_is_within_the_bounds_of_the_linear_function(void **state)
 
 /* The first facet of the first part that has a patch which is neither seen from the front nor nearly
    edge-on. */
-static lrcsi_patch tilted_patch(const linear_scene *s, const lrcs_brdf *brdf)
+static lrcsi_patch tilted_patch(const patch_scene *s, const lrcs_brdf *brdf)
 {
     for (uint32_t f = 0; f < s->scene.part[0].facet_count; f++) {
         lrcsi_patches evaluated = {.negligible = 0};
@@ -318,14 +279,14 @@ static lrcsi_patch tilted_patch(const linear_scene *s, const lrcs_brdf *brdf)
 static void what_rounding_leaves_open_has_no_linear_function(void **state)
 {
     (void)state;
-    static linear_scene s;
+    static patch_scene s;
     const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
     const lrcs_brdf brdf = {1, 1, 0.3, 1};
     const lrcs_brdf narrow = {1, 1, 1e-9, 1};
     const lrcs_brdf steep = {0, 1, 1, 1e17};
     lrcsi_linear linear;
     s.place = lrcs_place_default();
-    scene_make(&ball, 1e-2, &brdf, (const double[3]){0.3, 0.5, 0.7}, &s);
+    patch_scene_make(&ball, 1e-2, &brdf, 1, (const double[3]){0.3, 0.5, 0.7}, &s);
     lrcsi_patch patch = tilted_patch(&s, &brdf);
     lrcs_patch_bounds bounds = s.scene.part[0].bounds.patch;
     assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, &bounds, 1, &linear), 1);
@@ -343,12 +304,12 @@ static void what_rounding_leaves_open_has_no_linear_function(void **state)
 static void a_patch_seen_edge_on_has_no_linear_function(void **state)
 {
     (void)state;
-    static linear_scene s;
+    static patch_scene s;
     const lrcs_shape tube = {
         .kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1, .parts = LRCS_SHAPE_WALL};
     const lrcs_brdf matt = {0, 1, 1, 0};
     s.place = lrcs_place_default();
-    scene_make(&tube, 1e-2, &matt, (const double[3]){1, 0, 0}, &s);
+    patch_scene_make(&tube, 1e-2, &matt, 1, (const double[3]){1, 0, 0}, &s);
     const uint32_t around = s.scene.part[0].divisions.around;
     for (uint32_t sector = 0; sector < around; sector += 1 + around / 12) {
         double phi = (2.0 * sector + 1) * acos(-1.0) / around;
@@ -356,7 +317,7 @@ static void a_patch_seen_edge_on_has_no_linear_function(void **state)
         lrcsi_patch patch = {.at = {.sector = sector, .facets = 2}};
         double c = sector % 2 ? 4 * LRCSI_PATCH_NORMAL_ERR : 0;
         const double d[3] = {c * cos(phi) - sin(phi), c * sin(phi) + cos(phi), 0};
-        scene_make(&tube, 1e-2, &matt, d, &s);
+        patch_scene_make(&tube, 1e-2, &matt, 1, d, &s);
         for (patch.side = -1; patch.side < 2; patch.side += 2) {
             assert_int_equal(lrcsi_linear_make(&s.view, &matt, &patch,
                                                &s.scene.part[0].bounds.patch, 1, &linear),

@@ -11,10 +11,10 @@
 
 #include "base/rotate.h"
 #include "check.h"
+#include "patch_scene.h"
 #include "random.h"
 #include "view/view.h"
 
-static unsigned char memory[1u << 26];
 static uint64_t seed = 1;
 
 static double between(double low, double high)
@@ -22,47 +22,7 @@ static double between(double low, double high)
     return low * pow(high / low, random_unit(&seed));
 }
 
-/* --- one shape in a view ---------------------------------------------------------------------- */
-
-typedef struct patch_scene {
-    lrcs_place place;
-    lrcs_scene scene;
-    lrcsi_view view;
-    lrcsi_plan plan;
-} patch_scene;
-
 static double division = 2e-2; /* the tolerance that shapes are divided for */
-
-/* The shape, placed, and a plate far away, so that it is one among others. */
-static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const lrcs_brdf *brdf,
-                       int two_sided, const double d[3], patch_scene *s)
-{
-    lrcs_recipe_part part[2] = {
-        {.name = "a", .material_index = -1, .place = *place, .shape = *shape},
-        {.name = "b", .material_index = -1, .place = lrcs_place_default()}};
-    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
-    part[1].place.translate[2] = -30;
-    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = two_sided};
-    const lrcs_recipe recipe = {
-        .part = part, .part_count = 2, .binding = &binding, .binding_count = 1};
-    lrcs_build_options options = lrcs_build_options_default();
-    lrcs_run_options run = lrcs_run_options_default();
-    const lrcs_prepared *prepared;
-    lrcsi_clear_shapes clear;
-    lrcs_pose pose;
-    s->place = *place;
-    options.tolerance = division;
-    lrcs_work work = lrcs_work_make(memory, sizeof memory);
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
-    assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
-    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(
-        lrcsi_view_face(prepared, &pose, lrcsi_plan_backs(prepared, &run), &work, &s->view),
-        LRCS_OK);
-    assert_int_equal(lrcsi_view_project(&work, &s->view), LRCS_OK);
-    assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
-    s->plan = lrcsi_plan_make(&s->view, &clear, &run);
-}
 
 /* --- the reference ---------------------------------------------------------------------------- */
 
@@ -187,7 +147,8 @@ static void shape_check(int uneven)
         d[k] = random_unit(&seed) - 0.5;
     }
     assert_int_equal(lrcsi_rotate_euler("XYZ", euler, place.rotate), LRCS_OK);
-    scene_make(&shape, &place, &brdf, 1, d, &s);
+    s.place = place;
+    patch_scene_make(&shape, division, &brdf, 1, d, &s);
     const lrcs_part *part = &s.scene.part[0];
     for (uint32_t f = (uint32_t)(37 * random_unit(&seed)); f < part->facet_count; f += 37) {
         lrcsi_patches patches = {.negligible = 0};
@@ -249,7 +210,8 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
     const lrcs_aspect aspect = {1, 0, {0, 0, 1}};
     lrcs_closed_form closed;
     double sum = 0;
-    scene_make(&shape, &place, &brdf, 0, d, &s);
+    s.place = place;
+    patch_scene_make(&shape, division, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
         lrcsi_patches patches = {.negligible = 0};
         const lrcsi_patch *patch = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
@@ -272,7 +234,8 @@ static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
     const lrcs_place place = lrcs_place_default();
     unsigned with = 0;
     unsigned without = 0;
-    scene_make(&shape, &place, &brdf, 0, d, &s);
+    s.place = place;
+    patch_scene_make(&shape, division, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.facet_count; f++) {
         lrcsi_patches patches = {.negligible = 0};
         double cosine = fabs(lrcsi_view_incidence(&s.view, f).cos_theta);
@@ -297,7 +260,8 @@ static void each_material_has_its_own_mean_over_a_patch(void **state)
                                      {0.5, 0.5, 0.4, 1}, {0.5, 0.5, 0.4, 2},  {1, 0.25, 0.3, 1}};
     const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
     const lrcs_place place = lrcs_place_default();
-    scene_make(&ball, &place, &brdf[0], 0, (const double[3]){0.3, 0.5, 0.7}, &s);
+    s.place = place;
+    patch_scene_make(&ball, division, &brdf[0], 0, (const double[3]){0.3, 0.5, 0.7}, &s);
     uint32_t facet = 0;
     while (!(lrcsi_view_incidence(&s.view, facet).cos_theta > 0.5)) {
         facet++;

@@ -6,16 +6,11 @@
 #include <string.h>
 
 #include "check.h"
+#include "mesh/cube.h"
 
 enum { ROOM = 1 << 20 };
 
 static unsigned char room[ROOM];
-
-static const lrcs_point cube_vertex[8] = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}},
-                                          {{0, 0, 1}}, {{1, 0, 1}}, {{1, 1, 1}}, {{0, 1, 1}}};
-static const lrcs_facet cube_facet[12] = {{{0, 2, 1}}, {{0, 3, 2}}, {{4, 5, 6}}, {{4, 6, 7}},
-                                          {{0, 1, 5}}, {{0, 5, 4}}, {{1, 2, 6}}, {{1, 6, 5}},
-                                          {{2, 3, 7}}, {{2, 7, 6}}, {{3, 0, 4}}, {{3, 4, 7}}};
 
 static lrcs_mesh_report report_of(const lrcs_point *vertex, uint32_t vertices,
                                   const lrcs_facet *facet, uint32_t facets)

@@ -10,16 +10,11 @@
 #include "base/hash.h"
 #include "base/work.h"
 #include "check.h"
+#include "mesh/cube.h"
 
 enum { ROOM = 1 << 20 };
 
 static unsigned char room[ROOM];
-
-static const lrcs_point cube_vertex[8] = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}},
-                                          {{0, 0, 1}}, {{1, 0, 1}}, {{1, 1, 1}}, {{0, 1, 1}}};
-static const lrcs_facet cube_facet[12] = {{{0, 2, 1}}, {{0, 3, 2}}, {{4, 5, 6}}, {{4, 6, 7}},
-                                          {{0, 1, 5}}, {{0, 5, 4}}, {{1, 2, 6}}, {{1, 6, 5}},
-                                          {{2, 3, 7}}, {{2, 7, 6}}, {{3, 0, 4}}, {{3, 4, 7}}};
 
 static void a_cube_has_eighteen_edges_used_both_ways(void **state)
 {

@@ -2,8 +2,7 @@
 /* lrcs sweep --stats, --stats-file and lrcs plot: the distribution of sigma over the rows of a
    sweep (lrcs/distribution.h) as a table for people, JSON, CSV and a chart. A map of azimuth and
    elevation weights each row by the solid angle of its cell; in all other sweeps rows have equal
-   weights (for
-   --sphere that is the solid angle). */
+   weights, which for --sphere is their solid angle. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
