@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of an unknown option, so much is compared with the known ones. */
 #define NAME_MOST 64u
 
 __attribute__((format(printf, 1, 0))) static void message_print(const char *format, va_list list)

@@ -19,6 +19,9 @@ enum cli_exit {
 /* The version of the JSON schema that --json states. */
 #define CLI_SCHEMA 1
 
+/* The most threads that --jobs may ask for; a sweep starts no more (host/sweep/sweep.c). */
+#define CLI_JOBS_MOST 1024.0
+
 /* The pose options, which cli_pose_read reads, for a help text and for an option list. */
 #define CLI_POSE_HELP                                                                              \
     "pose: one of these; without any, the laser is on the +z axis\n"                               \

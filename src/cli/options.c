@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define RASTER_MOST 16384.0
+#define RASTER_MOST 16384.0 /* as lrcs_run_options.resolution */
 
 /* ---- the pose ---- */
 

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define NAME_WIDTH 24
+#define NAME_WIDTH 24 /* of the column of names */
 
 int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
                     const lrcs_facet_record *records, double sigma_m2, cli_shares *shares)

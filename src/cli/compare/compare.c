@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#define PIXELS      512u
-#define PIXELS_MOST 65536.0
+#define PIXELS      512u    /* side of the raster if none is given */
+#define PIXELS_MOST 65536.0 /* far more than any raster has */
 
 static const char compare_help[] =
     "usage: lrcs compare DIR THEIRS.csv [options]\n"

@@ -14,7 +14,7 @@
 #include "cli/converge/converge.h"
 #include "cli/profile/profile.h"
 
-#define TABLE_TEXT 256
+#define TABLE_TEXT 256 /* bytes of a title or a message */
 
 /* A file at work, and what is drawn of it. */
 typedef struct table_job {

@@ -45,10 +45,9 @@ static const cli_option report_options[] = {
     {"seconds", 1, 0}, {"cut-step", 1, 0},   {"map-step", 1, 0}, {"jobs", 1, 0},
     {"explore", 0, 0}, {"help", 0, 0},       {NULL, 0, 0}};
 
-#define REPORT_SECONDS   40.0
+#define REPORT_SECONDS   40.0 /* if no time is given */
 #define REPORT_COMPARE   0.25 /* share of the time for the comparison */
 #define REPORT_TOLERANCE 1e-2 /* tolerance of cuts and map */
-#define REPORT_JOBS      1024.0
 
 /* ---- options ---- */
 
@@ -80,7 +79,7 @@ static int report_read(report_job *job)
     }
     code = code ? code : step_read(args, "cut-step", &job->cut_step);
     code = code ? code : step_read(args, "map-step", &job->map_step);
-    code = code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
+    code = code ? code : cli_whole(args, "jobs", 1.0, CLI_JOBS_MOST, &job->threads);
     code = code ? code : cli_scene_options_read(args, &job->run.load);
     code = code ? code : cli_normals_read(args, &job->run.load);
     cli_division_set(&job->run.options, &job->run.load);

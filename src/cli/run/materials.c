@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define DRAWS_MOST 1048576.0
+#define DRAWS_MOST 1048576.0 /* as lrcs_uncertainty_options.draws */
 #define SEED_MOST  4294967295.0
 
 int cli_run_materials_read(run_job *job)

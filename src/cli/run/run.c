@@ -11,7 +11,7 @@
 /* With this many facets a run takes seconds or more. */
 #define RUN_MANY 100000u
 
-#define STEPS_MOST 4294967295.0
+#define STEPS_MOST 4294967295.0 /* of 32 bits */
 
 static const char run_help[] =
     "usage: lrcs run SCENE [pose] [options]\n"

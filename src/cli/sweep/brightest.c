@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BRIGHTEST_MOST 1000.0
-#define BRIGHTEST_ROWS ((uint64_t)1 << 28)
-#define NAMED_MOST     3u /* facets named in a line */
+#define BRIGHTEST_MOST 1000.0              /* lines of a table for people */
+#define BRIGHTEST_ROWS ((uint64_t)1 << 28) /* sigma and bound of these take 4 GiB */
+#define NAMED_MOST     3u                  /* facets named in a line */
 #define VALUE_WIDTH    12
 
 /* ---- options ---- */

@@ -90,8 +90,6 @@ static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OP
                                            {"projection", 1, 0}, {"stats-file", CLI_FILE, 1},
                                            {"help", 0, 0},       {NULL, 0, 0}};
 
-#define JOBS_MOST 1024.0
-
 typedef struct sweep_job {
     const cli_args *args;
     lrcs_host_plan plan;
@@ -155,7 +153,7 @@ static int sweep_options_read(sweep_job *job)
 {
     const cli_args *args = job->args;
     int code = cli_rows_output_read(args, &job->file);
-    code = code ? code : cli_whole(args, "jobs", 1.0, JOBS_MOST, &job->threads);
+    code = code ? code : cli_whole(args, "jobs", 1.0, CLI_JOBS_MOST, &job->threads);
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);

@@ -5,7 +5,7 @@
 
 #include "host/chart/plotter.h"
 
-#define LRCSI_LABEL_BOXES 4096u
+#define LRCSI_LABEL_BOXES 4096u /* beyond that, labels may cover what is drawn */
 
 typedef struct lrcsi_label_box {
     float x0, y0, x1, y1;

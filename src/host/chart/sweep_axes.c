@@ -9,8 +9,8 @@
 #include "base/constant.h"
 #include "host/fail.h"
 
-#define PLOT_ROWS    ((uint64_t)1 << 28)
-#define PLOT_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
+#define PLOT_ROWS    ((uint64_t)1 << 28) /* sigma and bound of these take 4 GiB */
+#define PLOT_DEGREES (180.0 / LRCS_PI)   /* degrees per radian */
 
 /* ---- words ---- */
 

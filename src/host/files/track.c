@@ -20,7 +20,7 @@ static const track_name track_names[] = {
     {"time", 0, -1}, {"time_s", 0, -1}, {"t", 0, -1}, {"w", 1, 1}, {"qw", 1, 1}, {"qx", 2, 1},
     {"qy", 3, 1},    {"qz", 4, 1},      {"x", 1, 0},  {"y", 2, 0}, {"z", 3, 0}};
 
-#define PLACE_JOINT 5
+#define PLACE_JOINT 5 /* follows the places of the names above */
 
 #define NOTICE_MOST 64u /* bytes of the name of a column in a notice */
 

@@ -69,7 +69,7 @@ static double vtk_number(const lrcs_host_picture *picture, const vtk_array *arra
     }
 }
 
-#define VTK_CELL_ARRAYS 7
+#define VTK_CELL_ARRAYS 7 /* numbers of a facet */
 
 static void cell_arrays(const lrcs_host_picture *picture, vtk_array array[VTK_CELL_ARRAYS])
 {

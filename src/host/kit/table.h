@@ -7,7 +7,7 @@
 #include <lrcs/conformance.h>
 #include <lrcs/table.h>
 
-#define LRCSI_KIT_COLUMNS 24
+#define LRCSI_KIT_COLUMNS 24 /* more than any table of a kit has */
 
 typedef struct lrcsi_kit_table {
     lrcs_host_file file;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the deflate format: lengths of a repetition, and how far back it may begin (RFC 1951). */
 #define MATCH_MIN 3u
 #define MATCH_MAX 258u
 #define WINDOW    32768u

@@ -12,7 +12,7 @@
 #include "host/run/run.h"
 #include "host/run/workers.h"
 
-#define SWEEP_THREADS 1024u
+#define SWEEP_THREADS 1024u /* more than processors, on most machines */
 
 typedef struct sweep_slot {
     lrcs_pose pose;
