@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+/* An SVG is drawn in a font of the browser, in which lines measured so much wider than these. */
+#define LETTERS_WIDER      1.05
+#define LETTERS_WIDER_BOLD 1.15
+
 /* Two characters a point, x right and y down, each its distance from 'R'; " R" lifts the plotter.
    The first pair is the left and the right side. Capitals stand on 9 and rise to -12. */
 static const char *const letter_strokes[] = {
@@ -142,7 +146,8 @@ double lrcsi_letters_width(const char *text)
 
 void lrcsi_letters_fit(lrcsi_plotter *plotter, lrcsi_plot_text label, double room)
 {
-    double width = label.size * lrcsi_letters_width(label.text);
+    double wider = label.bold ? LETTERS_WIDER_BOLD : LETTERS_WIDER;
+    double width = label.size * lrcsi_letters_width(label.text) * wider;
     label.size *= width > room ? room / width : 1.0;
     plotter->text(plotter, &label);
 }

@@ -115,7 +115,7 @@ static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
 
 typedef struct legend_grid {
     uint32_t columns, rows,
-        shown; /* shown: materials that are listed; "and N more" stands for the others */
+        shown; /* shown: materials that are listed; a number stands for the others */
     double column;
 } legend_grid;
 
@@ -146,7 +146,8 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
 {
     uint32_t more = colouring->more + colouring->materials - grid->shown;
     char others[32];
-    snprintf(others, sizeof others, "and %lu more", (unsigned long)more);
+    snprintf(others, sizeof others, grid->shown > 0 ? "and %lu more" : "%lu materials",
+             (unsigned long)more);
     for (uint32_t i = 0; grid->rows > 0 && i < grid->shown + (more > 0); i++) {
         double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
         uint32_t row = i / grid->columns;
