@@ -259,4 +259,46 @@ static inline long double scene_eq2(const lrcs_brdf *b, long double area, long d
     check_abs_at((result).sigma_m2, (truth), (result).bound_m2 + 4e-16 * fabs(truth), #result,     \
                  __FILE__, __LINE__)
 
+/* --- scenes of several tests ------------------------------------------------------------------ */
+
+/* Bodies before, behind and through one another; sectors around each of the spheres. */
+static inline void scene_bodies(test_scene *s, uint32_t first, uint32_t second)
+{
+    scene_start(s);
+    scene_sphere(s, (const double[3]){0, 0, 0}, 1, first);
+    scene_box(s, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
+    scene_sphere(s, (const double[3]){0.5, 2.25, 3}, 0.75, second);
+}
+
+/* The same, a plate stored twice, and two plates 2^-40 apart that are seen all but edge-on along
+   (0, 0, 1). */
+static inline void scene_many_bodies(test_scene *s, uint32_t first, uint32_t second)
+{
+    scene_bodies(s, first, second);
+    for (int i = 0; i < 2; i++) {
+        scene_plate(s, (const double[3]){-3, 1 + 0.25 * i, -1 + 0.125 * i},
+                    (const double[3]){3, 0.125, 0.5}, (const double[3]){0.25, 0.5, 3});
+        scene_plate(s, (const double[3]){2.5 + i * 0x1p-40, -1, -4},
+                    (const double[3]){0x1p-26, 0, 8}, (const double[3]){0, 1, 0});
+        scene_triangle(s, (const double[3]){-3, -3, 2}, (const double[3]){-1, -3, 2},
+                       (const double[3]){-3, -1, 2.5});
+    }
+}
+
+/* Large triangles of all slopes, each through all others. */
+static inline void scene_crossing_triangles(test_scene *s, uint64_t seed)
+{
+    scene_start(s);
+    for (int i = 0; i < 12; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 3; k++) {
+            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
+            corner[k][0] = 2 * cos(angle);
+            corner[k][1] = 2 * sin(angle);
+            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
+        }
+        scene_triangle(s, corner[0], corner[1], corner[2]);
+    }
+}
+
 #endif

@@ -70,7 +70,7 @@ static void turn_by(lrcs_recipe_part *part, const double of[9])
     }
 }
 
-static void turn_anyhow(lrcs_recipe_part *part)
+static void turn_at_random(lrcs_recipe_part *part)
 {
     double q[4];
     double square = 0;
@@ -129,7 +129,7 @@ static double gap(void)
     return any[pick(sizeof any / sizeof *any)];
 }
 
-static void fill_anyhow(shape_scene *s, int lattice, double spread)
+static void fill_at_random(shape_scene *s, int lattice, double spread)
 {
     uint32_t parts = 1 + pick(4);
     for (uint32_t i = 0; i < parts; i++) {
@@ -138,7 +138,7 @@ static void fill_anyhow(shape_scene *s, int lattice, double spread)
         double b = length_of(lattice);
         lrcs_recipe_part *part = put(s, kind, a, b, length_of(lattice));
         if (pick(3) == 0) {
-            turn_anyhow(part);
+            turn_at_random(part);
         } else {
             turn_by(part, quarter[pick(4)]);
         }
@@ -150,7 +150,7 @@ static void fill_anyhow(shape_scene *s, int lattice, double spread)
 }
 
 /* What lies or stands on the plane z = 0, its place along x. */
-static void rest_one(shape_scene *s, double x, double r)
+static void place_on_plane(shape_scene *s, double x, double r)
 {
     double length = length_of(0);
     double above = gap();
@@ -184,7 +184,7 @@ static void rest_one(shape_scene *s, double x, double r)
     }
 }
 
-static void fill_resting(shape_scene *s)
+static void fill_on_plane(shape_scene *s)
 {
     double r = length_of(1) * 0.5;
     switch (pick(3)) {
@@ -197,8 +197,8 @@ static void fill_resting(shape_scene *s)
     default: /* a cylinder's top */
         move(put(s, LRCS_SHAPE_CYLINDER, 1.25, 0, 0.5), 0, 0, -0.5);
     }
-    rest_one(s, 0, r);
-    rest_one(s, 2 * r + gap(), r);
+    place_on_plane(s, 0, r);
+    place_on_plane(s, 2 * r + gap(), r);
     if (pick(2)) { /* across both, should they lie */
         lrcs_recipe_part *part = put(s, LRCS_SHAPE_CYLINDER, 0.2, 0, 1.5);
         turn_by(part, quarter[2]);
@@ -296,7 +296,7 @@ static int axis_of(const lrcs_recipe_part *part, int k)
 
 /* Scales what is there by another factor along each axis of the world, so that contacts stay; parts
    that are turned otherwise are scaled along their own axes. */
-static void stretch(shape_scene *s)
+static void scale_axes(shape_scene *s)
 {
     static const double any[] = {1, 1, 0.5, 2, 0.1, 0.999, 1 + 1e-9};
     double factor[3];
@@ -317,7 +317,7 @@ static void fill_stretched(shape_scene *s)
 {
     switch (pick(4)) {
     case 0:
-        fill_resting(s);
+        fill_on_plane(s);
         break;
     case 1:
         fill_flush(s);
@@ -326,9 +326,9 @@ static void fill_stretched(shape_scene *s)
         fill_nested(s);
         break;
     default:
-        fill_anyhow(s, 0, pick(2) ? 0.1 : 1);
+        fill_at_random(s, 0, pick(2) ? 0.1 : 1);
     }
-    stretch(s);
+    scale_axes(s);
 }
 
 /* --- scenes and directions -------------------------------------------------------------------- */
@@ -352,7 +352,7 @@ static void shape_scene_make(shape_scene *s, int family)
     s->recipe = (lrcs_recipe){.part = s->part, .material = s->material, .material_count = 2};
     switch (family) {
     case SHAPE_SCENE_RESTING:
-        fill_resting(s);
+        fill_on_plane(s);
         break;
     case SHAPE_SCENE_FLUSH:
         fill_flush(s);
@@ -367,7 +367,7 @@ static void shape_scene_make(shape_scene *s, int family)
         fill_stretched(s);
         break;
     default:
-        fill_anyhow(s, family == SHAPE_SCENE_LATTICE, family == SHAPE_SCENE_PIERCED ? 0.1 : 1);
+        fill_at_random(s, family == SHAPE_SCENE_LATTICE, family == SHAPE_SCENE_PIERCED ? 0.1 : 1);
     }
     shape_scene_dress(s);
 }

@@ -565,7 +565,7 @@ static void check_agree(const outcome *got, const outcome *whole)
 }
 
 /* `same`: an answer has the same bytes; else it contains the other. */
-static void withstand(operation *run, int same)
+static void check_refusals(operation *run, int same)
 {
     outcome whole;
     outcome got;
@@ -599,52 +599,52 @@ static void withstand(operation *run, int same)
 static void reading_a_scene_fails_or_gives_the_same_scene(void **state)
 {
     (void)state;
-    withstand(demo_is_read, 1);
-    withstand(model_is_read, 1);
-    withstand(scene_is_made_and_varied, 1);
+    check_refusals(demo_is_read, 1);
+    check_refusals(model_is_read, 1);
+    check_refusals(scene_is_made_and_varied, 1);
 }
 
 static void sigma_without_memory_fails_or_contains_the_truth(void **state)
 {
     (void)state;
-    withstand(pose_is_run, 0);
-    withstand(uncertainty_is_run, 0);
-    withstand(slope_is_run, 0);
-    withstand(stages_are_run, 1);
-    withstand(hardware_is_emulated, 1);
+    check_refusals(pose_is_run, 0);
+    check_refusals(uncertainty_is_run, 0);
+    check_refusals(slope_is_run, 0);
+    check_refusals(stages_are_run, 1);
+    check_refusals(hardware_is_emulated, 1);
 }
 
 static void lists_fail_or_are_the_same(void **state)
 {
     (void)state;
-    withstand(polygons_are_made, 1);
-    withstand(profile_is_made, 1);
-    withstand(shares_are_made, 1);
-    withstand(glint_is_checked, 1);
+    check_refusals(polygons_are_made, 1);
+    check_refusals(profile_is_made, 1);
+    check_refusals(shares_are_made, 1);
+    check_refusals(glint_is_checked, 1);
 }
 
 static void pictures_and_charts_fail_or_are_the_same(void **state)
 {
     (void)state;
-    withstand(picture_is_written, 0);
-    withstand(chart_is_written, 1);
-    withstand(map_is_written, 1);
-    withstand(drawings_are_written, 0);
+    check_refusals(picture_is_written, 0);
+    check_refusals(chart_is_written, 1);
+    check_refusals(map_is_written, 1);
+    check_refusals(drawings_are_written, 0);
 }
 
 static void files_fail_or_are_whole(void **state)
 {
     (void)state;
-    withstand(readings_are_read, 1);
-    withstand(file_is_written, 1);
+    check_refusals(readings_are_read, 1);
+    check_refusals(file_is_written, 1);
 }
 
 static void finer_divisions_fail_or_contain_the_truth(void **state)
 {
     (void)state;
-    withstand(scene_is_refined, 0);
+    check_refusals(scene_is_refined, 0);
     assert_true(finer > 0);
-    withstand(sweep_is_run, 0);
+    check_refusals(sweep_is_run, 0);
     assert_true(finer > 0);
 }
 

@@ -47,7 +47,7 @@ static void build(const shape_scene *s, double tolerance, uint32_t facets, built
     build_recipe(&s->recipe, NULL, tolerance, facets, b);
 }
 
-static void unbuild(built *b)
+static void built_free(built *b)
 {
     free(b->area);
     free(b->scratch);
@@ -187,8 +187,8 @@ static void scene_compare(int which, uint32_t directions)
         compare(&s, began, d, &patches, &best);
     }
     family[which].scenes++;
-    unbuild(&coarse);
-    unbuild(&fine);
+    built_free(&coarse);
+    built_free(&fine);
 }
 
 static void coarse_and_fine_agree_within_their_bounds(void **state)
@@ -250,7 +250,7 @@ static void scene_cast(int which, uint32_t directions, int side)
         }
     }
     family[which].scenes++;
-    unbuild(&b);
+    built_free(&b);
 }
 
 static void rays_stay_within_the_bound(void **state)
@@ -351,9 +351,9 @@ static void what_takes_no_part_leaves_bounds_and_models_do_not_break_them(void *
             check_rel(a.sigma_m2, c.sigma_m2, 1e-12);
             check_rel(a.budget.tessellation_m2, c.budget.tessellation_m2, 1e-12);
         }
-        unbuild(&coarse);
-        unbuild(&fine);
-        unbuild(&bare);
+        built_free(&coarse);
+        built_free(&fine);
+        built_free(&bare);
     }
 }
 
@@ -376,7 +376,7 @@ static void back_sides_left_out_leave_tubes_unknown(void **state)
         assert_int_equal(r.budget.tessellation_m2 < 0, out);
         assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, out);
     }
-    unbuild(&b);
+    built_free(&b);
 }
 
 /* --- what cannot be told ---------------------------------------------------------------------- */
@@ -409,7 +409,7 @@ static void what_is_not_known_of_one_part_is_known_of_no_sum(void **state)
             assert_int_equal(r.budget.tessellation_m2 >= 0, known);
             assert_int_equal((r.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0, !known);
         }
-        unbuild(&b);
+        built_free(&b);
     }
 }
 

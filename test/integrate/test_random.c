@@ -139,7 +139,7 @@ static void make(size_t kind, uint32_t number, int laws, double direction[3])
 }
 
 /* By every method, prepared once; records are the last one's. */
-static void see(const double direction[3], lrcs_result result[METHODS])
+static void run_methods(const double direction[3], lrcs_result result[METHODS])
 {
     lrcs_work work;
     const lrcs_prepared *p = scene_prepare(&scene, &work);
@@ -167,9 +167,9 @@ static void each_scene(int laws, double (*change)(uint64_t *seed, double directi
             lrcs_result before[METHODS];
             lrcs_result after[METHODS];
             make(kind, number, laws, direction);
-            see(direction, before);
+            run_methods(direction, before);
             double factor = change(&seed, direction);
-            see(direction, after);
+            run_methods(direction, after);
             for (int k = 0; k < METHODS; k++) {
                 check_overlap(&before[k], &after[k], factor);
                 check_overlap(&before[EXACT], &after[k], factor);
@@ -301,9 +301,9 @@ static void scaling_by_powers_of_two_is_exact(void **state)
             lrcs_result r[METHODS];
             int p = power[number % 4];
             make(kind, number, 3, direction);
-            see(direction, one);
+            run_methods(direction, one);
             scene_move(&scene, ldexp(1, p), (const double[3]){0, 0, 0});
-            see(direction, r);
+            run_methods(direction, r);
             for (int k = 0; k < METHODS; k++) {
                 check_same(r[k].sigma_m2, ldexp(one[k].sigma_m2, 2 * p));
                 check_same(r[k].sigma_glint_m2, ldexp(one[k].sigma_glint_m2, 2 * p));

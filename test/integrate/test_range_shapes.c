@@ -52,7 +52,7 @@ static void build(const lrcs_recipe *recipe, double tolerance, uint32_t most, bu
     build_models(recipe, NULL, tolerance, most, LRCS_FACETS_LOCAL, b);
 }
 
-static void unbuild(built *b)
+static void built_free(built *b)
 {
     free(b->memory[0]);
     free(b->memory[1]);
@@ -260,7 +260,7 @@ static void bins_of_a_sphere_hold_the_integral_over_it(void **state)
             loose[fine] = profile.bound_m2 / profile.sigma_diffuse_m2;
             free(memory);
         }
-        unbuild(&b);
+        built_free(&b);
     }
     assert_true(loose[0] < 0.05 && loose[1] < 0.2 * loose[0]); /* second order in the facets */
 }
@@ -297,7 +297,7 @@ static void bins_of_walls_hold_the_integral_over_them(void **state)
             assert_true(profile.bound_m2 < 1e-2 * sigma);
             free(memory);
         }
-        unbuild(&b);
+        built_free(&b);
     }
 }
 
@@ -365,7 +365,7 @@ static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
         }
         for (int k = 0; k < 2; k++) {
             free(memory[k]);
-            unbuild(&b[k]);
+            built_free(&b[k]);
         }
     }
     assert_true(known > 3 * SHAPE_SCENE_FAMILIES);
@@ -426,7 +426,7 @@ static void bounds_without_known_curvature_are_those_of_facets(void **state)
         }
         assert_true(profile.sigma_diffuse_m2 > 0);
         free(memory);
-        unbuild(&b);
+        built_free(&b);
     }
 }
 
@@ -481,7 +481,7 @@ static void what_takes_no_part_changes_no_bin(void **state)
     }
     for (int i = 0; i < 2; i++) {
         free(memory[i]);
-        unbuild(&b[i]);
+        built_free(&b[i]);
     }
 }
 
@@ -516,7 +516,7 @@ static void the_work_area_grows_until_it_suffices(void **state)
     check_memory_limit(MEMORY_CASE("lrcs_profile_run", lrcs_profile_need(b.prepared, 0.2),
                                    profile_limited, output, 1));
     assert_true(output.tessellation_known && output.bound_m2 > 0);
-    unbuild(&b);
+    built_free(&b);
 }
 
 int main(void)

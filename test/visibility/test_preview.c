@@ -14,41 +14,7 @@ static const double seen_along[][3] = {{0, 0, 1},     {1, 0, 1}, {0.3, -0.4, 0.5
                                        {-1, -2, 0.1}, {1, 1, 1}, {-0.7, 0.2, -0.9}};
 enum { DIRECTIONS = sizeof seen_along / sizeof *seen_along };
 
-/* Bodies before, behind and through one another, a plate stored twice, and two plates 2^-40 apart
-   that are seen all but edge-on along (0, 0, 1). */
-static void crowd(void)
-{
-    scene_start(&scene);
-    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
-    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
-    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 16);
-    for (int i = 0; i < 2; i++) {
-        scene_plate(&scene, (const double[3]){-3, 1 + 0.25 * i, -1 + 0.125 * i},
-                    (const double[3]){3, 0.125, 0.5}, (const double[3]){0.25, 0.5, 3});
-        scene_plate(&scene, (const double[3]){2.5 + i * 0x1p-40, -1, -4},
-                    (const double[3]){0x1p-26, 0, 8}, (const double[3]){0, 1, 0});
-        scene_triangle(&scene, (const double[3]){-3, -3, 2}, (const double[3]){-1, -3, 2},
-                       (const double[3]){-3, -1, 2.5});
-    }
-}
-
-/* Large triangles of all slopes, each through all others. */
-static void tangle(uint64_t seed)
-{
-    scene_start(&scene);
-    for (int i = 0; i < 12; i++) {
-        double corner[3][3];
-        for (int k = 0; k < 3; k++) {
-            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
-            corner[k][0] = 2 * cos(angle);
-            corner[k][1] = 2 * sin(angle);
-            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
-        }
-        scene_triangle(&scene, corner[0], corner[1], corner[2]);
-    }
-}
-
-static lrcsi_view seen_from(int i)
+static lrcsi_view view_from(int i)
 {
     lrcs_pose pose;
     lrcsi_view view;
@@ -109,11 +75,11 @@ static void shares_are_those_of_the_raster(void **state)
     for (int s = 0; s < 6; s++) {
         for (int i = 0; i < DIRECTIONS; i++) {
             if (s == 0) {
-                crowd();
+                scene_many_bodies(&scene, 12, 16);
             } else {
-                tangle((uint64_t)s);
+                scene_crossing_triangles(&scene, (uint64_t)s);
             }
-            lrcsi_view view = seen_from(i);
+            lrcsi_view view = view_from(i);
             for (int k = 0; k < 6; k++) {
                 check_shares(&view, size[k], &parted);
             }
@@ -143,7 +109,7 @@ static void shares_on_a_crossing_and_of_steep_facets_are_those_of_the_raster(voi
             scene_plate(&scene, (const double[3]){-2, -1, rise}, (const double[3]){1.5, 0, -rise},
                         (const double[3]){0, 2, -2 * rise});
         }
-        lrcsi_view view = seen_from(0);
+        lrcsi_view view = view_from(0);
         for (uint32_t size = 1; size < 70; size++) {
             check_shares(&view, size, &parted);
         }
@@ -159,7 +125,7 @@ static void facets_without_samples_show_what_those_beside_them_show(void **state
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 40);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 0.5, 30); /* inside the first */
-    lrcsi_view view = seen_from(2);
+    lrcsi_view view = view_from(2);
     assert_int_equal(lrcsi_preview_make(&view, 24, NULL, &work, visible, &undecided), LRCS_OK);
     double sum = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -183,7 +149,7 @@ static void facets_with_few_samples_show_together_what_the_samples_count(void **
                 scene_box(&scene, (const double[3]){-1.5, 0.25 * k - 1.5, 1.25},
                           (const double[3]){1.5, 0.25 * k - 1.46875, 1.28125});
             }
-            lrcsi_view view = seen_from(i);
+            lrcsi_view view = view_from(i);
             lrcsi_raster raster;
             assert_int_equal(lrcsi_preview_make(&view, size, NULL, &work, visible, &undecided),
                              LRCS_OK);
@@ -229,7 +195,7 @@ static void areas_do_not_depend_on_the_order_of_facets(void **state)
         if (seed > 0) {
             scene_shuffle(&scene, seed);
         }
-        lrcsi_view view = seen_from(2);
+        lrcsi_view view = view_from(2);
         assert_int_equal(lrcsi_preview_make(&view, 30, NULL, &work, visible, &undecided), LRCS_OK);
         double sum = 0;
         double likely = 0;
@@ -250,9 +216,9 @@ static void the_likely_error_is_near_the_error(void **state)
     unsigned below = 0;
     unsigned far = 0;
     for (int s = 0; s < 16; s++) {
-        tangle((uint64_t)s + 100);
+        scene_crossing_triangles(&scene, (uint64_t)s + 100);
         for (int i = 0; i < DIRECTIONS; i++) {
-            lrcsi_view view = seen_from(i);
+            lrcsi_view view = view_from(i);
             lrcsi_classification classification;
             assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
             assert_int_equal(
@@ -287,8 +253,8 @@ static void memory_below_the_need_is_refused(void **state)
 {
     (void)state;
     int undecided = 7;
-    crowd();
-    lrcsi_view view = seen_from(2);
+    scene_many_bodies(&scene, 12, 16);
+    lrcsi_view view = view_from(2);
     size_t mark = work.peak = work.used;
     assert_int_equal(lrcsi_preview_make(&view, 50, NULL, &work, visible, &undecided), LRCS_OK);
     size_t peak = work.peak - mark;

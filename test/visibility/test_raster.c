@@ -9,7 +9,7 @@
 static test_scene scene;
 static lrcs_work work;
 
-static lrcsi_view seen_from(const double d[3])
+static lrcsi_view view_from(const double d[3])
 {
     lrcs_pose pose;
     lrcsi_view view;
@@ -87,7 +87,7 @@ static void square_is_covered_once_without_cracks(void **state)
     static const uint32_t size[] = {1, 2, 7, 8, 16, 24, 31, 100};
     for (int i = 0; i < 4; i++) {
         grid_of(8, shift[i]);
-        lrcsi_view view = seen_from((const double[3]){0, 0, 1});
+        lrcsi_view view = view_from((const double[3]){0, 0, 1});
         for (int k = 0; k < 8; k++) {
             lrcsi_raster raster = drawn(&view, size[k]);
             assert_int_equal(covered_in_all(&raster), size[k] * size[k]);
@@ -104,7 +104,7 @@ static void no_sample_is_covered_twice_from_any_side(void **state)
     for (int i = 0; i < 8; i++) {
         for (int k = 0; k < 2; k++) {
             grid_of(12, k == 0 ? 0 : 0.2);
-            lrcsi_view view = seen_from(direction[i]);
+            lrcsi_view view = view_from(direction[i]);
             for (uint32_t size = 5; size < 200; size = 2 * size + 1) {
                 lrcsi_raster raster = drawn(&view, size);
                 assert_int_equal(covered_in_all(&raster), owned_in_all(&raster));
@@ -138,7 +138,7 @@ static void fan_covers_every_sample_once(void **state)
     for (uint32_t i = 0; i < 4 * side; i++) {
         scene_facet(&scene, apex, 1 + i, 1 + (i + 1) % (4 * side));
     }
-    lrcsi_view view = seen_from((const double[3]){0, 0, 1});
+    lrcsi_view view = view_from((const double[3]){0, 0, 1});
     for (uint32_t size = 1; size <= 65; size += 4) {
         lrcsi_raster raster = drawn(&view, size);
         assert_int_equal(covered_in_all(&raster), size * size);
@@ -158,7 +158,7 @@ static void highest_plate_owns_each_sample(void **state)
         scene_plate(&scene, (const double[3]){0, 0, h * 0x1p-30}, (const double[3]){8.0 - h, 0, 0},
                     (const double[3]){0, 8, 0});
     }
-    lrcsi_view view = seen_from((const double[3]){0, 0, 1});
+    lrcsi_view view = view_from((const double[3]){0, 0, 1});
     lrcsi_raster raster = drawn(&view, N);
     for (uint32_t i = 0; i < N * N; i++) {
         uint32_t x = i % N / 8; /* the stair's step, counted from the top at x = 0 */
@@ -187,7 +187,7 @@ static void owners_do_not_depend_on_the_order_of_facets(void **state)
             if (seed > 0) {
                 scene_shuffle(&scene, seed);
             }
-            lrcsi_view view = seen_from(direction[i]);
+            lrcsi_view view = view_from(direction[i]);
             lrcsi_raster raster = drawn(&view, N);
             for (uint32_t k = 0; k < N * N; k++) {
                 lrcs_facet facet = {{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
@@ -222,7 +222,7 @@ static uint32_t exact_owner(const lrcsi_raster *raster, uint32_t x, uint32_t y)
 static unsigned check_owners(const double direction[3], uint32_t size)
 {
     unsigned owned = 0;
-    lrcsi_view view = seen_from(direction);
+    lrcsi_view view = view_from(direction);
     view.backs.cast = 1;
     lrcsi_raster raster = drawn(&view, size);
     for (uint32_t y = 0; y < size; y++) {
@@ -233,40 +233,6 @@ static unsigned check_owners(const double direction[3], uint32_t size)
         }
     }
     return owned;
-}
-
-/* Bodies before, behind and through one another, a plate stored twice, and two plates 2^-40 apart
-   that are seen all but edge-on along (0, 0, 1). */
-static void crowd(void)
-{
-    scene_start(&scene);
-    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 8);
-    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
-    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 6);
-    for (int i = 0; i < 2; i++) {
-        scene_plate(&scene, (const double[3]){-3, 1 + 0.25 * i, -1 + 0.125 * i},
-                    (const double[3]){3, 0.125, 0.5}, (const double[3]){0.25, 0.5, 3});
-        scene_plate(&scene, (const double[3]){2.5 + i * 0x1p-40, -1, -4},
-                    (const double[3]){0x1p-26, 0, 8}, (const double[3]){0, 1, 0});
-        scene_triangle(&scene, (const double[3]){-3, -3, 2}, (const double[3]){-1, -3, 2},
-                       (const double[3]){-3, -1, 2.5});
-    }
-}
-
-/* Large triangles of all slopes, each through all others. */
-static void tangle(uint64_t seed)
-{
-    scene_start(&scene);
-    for (int i = 0; i < 12; i++) {
-        double corner[3][3];
-        for (int k = 0; k < 3; k++) {
-            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
-            corner[k][0] = 2 * cos(angle);
-            corner[k][1] = 2 * sin(angle);
-            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
-        }
-        scene_triangle(&scene, corner[0], corner[1], corner[2]);
-    }
 }
 
 static void owners_are_those_of_exact_samples(void **state)
@@ -280,9 +246,9 @@ static void owners_are_those_of_exact_samples(void **state)
         for (int i = 0; i < 6; i++) {
             for (int k = 0; k < 5; k++) {
                 if (s == 0) {
-                    crowd();
+                    scene_many_bodies(&scene, 8, 6);
                 } else {
-                    tangle((uint64_t)s);
+                    scene_crossing_triangles(&scene, (uint64_t)s);
                 }
                 owned += check_owners(direction[i], size[k]);
             }
@@ -346,7 +312,7 @@ static void heights_lie_within_their_error_bounds(void **state)
     enum { N = 40 };
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){100, 50, -30}, 2, 20);
-    lrcsi_view view = seen_from((const double[3]){0.5, 0.25, 1});
+    lrcsi_view view = view_from((const double[3]){0.5, 0.25, 1});
     lrcsi_raster raster = drawn(&view, N);
     const lrcs_prepared *p = view.prepared;
     for (uint32_t k = 0; k < N * N; k++) {
@@ -392,7 +358,7 @@ static void planes_intersect_in_a_line_through_the_box(void **state)
                     (const double[3]){0, 8, 0});
         scene_plate(&scene, (const double[3]){0, 0, shift}, (const double[3]){8, 0, 8 * rise[0]},
                     (const double[3]){0, 8, 8 * rise[1]});
-        lrcsi_view view = seen_from((const double[3]){0, 0, 1});
+        lrcsi_view view = view_from((const double[3]){0, 0, 1});
         lrcsi_raster raster;
         lrcsi_raster_layout(&view, 64, &raster);
         lrcsi_edge_functions box = lrcsi_raster_edge_functions(&raster, 0);

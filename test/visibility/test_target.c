@@ -23,7 +23,7 @@ static lrcsi_target target_from(double x, double y, double z)
 }
 
 /* How far the projection of the weighted point lies from `at`, in units of u times the reach. */
-static double strays(const lrcsi_target *t, const double at[2], const double weight[3])
+static double displacement(const lrcsi_target *t, const double at[2], const double weight[3])
 {
     const double *origin = lrcsi_prepared_corner(view.prepared, 0, 0);
     long double off = 0;
@@ -86,7 +86,7 @@ static void points_come_back_to_where_they_are_seen_in_any_needle(void **state)
             for (int j = 0; j < 3; j++) {
                 check_most(-weight[j], 0);
             }
-            worst = fmax(worst, strays(&t, at, weight));
+            worst = fmax(worst, displacement(&t, at, weight));
         }
     }
     check_most(worst, 100); /* of visibility/cells/target.h */

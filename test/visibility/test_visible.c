@@ -14,17 +14,14 @@ static test_scene scene;
 static lrcs_work work;
 
 /* Bodies before, behind and through one another; an open plate that shows its back. */
-static void crowd(void)
+static void bodies_and_a_plate(void)
 {
-    scene_start(&scene);
-    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
-    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
-    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 16);
+    scene_bodies(&scene, 12, 16);
     scene_plate(&scene, (const double[3]){-3, 1, -1}, (const double[3]){3, 0.125, 0.5},
                 (const double[3]){0.25, 0.5, 3});
 }
 
-static lrcsi_view seen_from(int i)
+static lrcsi_view view_from(int i)
 {
     static const double direction[4][3] = {{0, 0, 1}, {1, 0, 1}, {0.3, -0.4, 0.5}, {-1, -2, 0.1}};
     lrcs_pose pose;
@@ -63,8 +60,8 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
     unsigned active = 0;
     unsigned left = 0;
     for (int i = 0; i < 4; i++) {
-        crowd();
-        lrcsi_view view = seen_from(i);
+        bodies_and_a_plate();
+        lrcsi_view view = view_from(i);
         lrcsi_classification classification;
         lrcsi_decisions known;
         lrcsi_raster whole;
@@ -109,8 +106,8 @@ static void tiles_about_undecided_facets_are_active(void **state)
     static lrcsi_visible_area visible[SCENE_FACETS];
     unsigned seen = 0;
     for (int i = 0; i < 4; i++) {
-        crowd();
-        lrcsi_view view = seen_from(i);
+        bodies_and_a_plate();
+        lrcsi_view view = view_from(i);
         lrcsi_classification classification;
         lrcsi_decisions known;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
@@ -134,22 +131,6 @@ static void tiles_about_undecided_facets_are_active(void **state)
     assert_true(seen > 1000);
 }
 
-/* Large triangles of all slopes, each through all others. */
-static void tangle(uint64_t seed)
-{
-    scene_start(&scene);
-    for (int i = 0; i < 12; i++) {
-        double corner[3][3];
-        for (int k = 0; k < 3; k++) {
-            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
-            corner[k][0] = 2 * cos(angle);
-            corner[k][1] = 2 * sin(angle);
-            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
-        }
-        scene_triangle(&scene, corner[0], corner[1], corner[2]);
-    }
-}
-
 /* A pixel that a facet known to be visible covers shows that facet in every part: so says a picture
    eight times as fine. */
 static void pixels_covered_by_visible_facets_show_these_in_every_part(void **state)
@@ -158,8 +139,8 @@ static void pixels_covered_by_visible_facets_show_these_in_every_part(void **sta
     static lrcsi_visible_area visible[SCENE_FACETS];
     unsigned full = 0;
     for (int i = 0; i < 4; i++) {
-        crowd();
-        lrcsi_view view = seen_from(i);
+        bodies_and_a_plate();
+        lrcsi_view view = view_from(i);
         lrcsi_classification classification;
         lrcsi_decisions known;
         lrcsi_raster fine;
@@ -222,11 +203,11 @@ static void bounds_hold_the_exact_area_of_each_facet(void **state)
         double before = HUGE_VAL;
         for (int k = 0; k < 6; k++) {
             if (i < 4) {
-                crowd();
+                bodies_and_a_plate();
             } else {
-                tangle((uint64_t)i);
+                scene_crossing_triangles(&scene, (uint64_t)i);
             }
-            lrcsi_view view = seen_from(i % 4);
+            lrcsi_view view = view_from(i % 4);
             double width = check_bounds(&view, size[k], &parted);
             if (size[k] >= 50) { /* they shrink with the size of pixels */
                 check_most(width, 0.5 * before);
@@ -261,7 +242,7 @@ static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **
 static unsigned check_occluders(int direction)
 {
     static unsigned char answer[SCENE_FACETS];
-    lrcsi_view view = seen_from(direction);
+    lrcsi_view view = view_from(direction);
     lrcsi_raster raster;
     lrcsi_raster fine;
     unsigned count = 0;
@@ -294,9 +275,9 @@ static void nothing_is_visible_below_the_occluded_height_of_a_pixel(void **state
     (void)state;
     unsigned count = 0;
     for (int i = 0; i < 12; i++) {
-        crowd();
+        bodies_and_a_plate();
         count += i < 4 ? check_occluders(i) : 0;
-        tangle((uint64_t)i + 1);
+        scene_crossing_triangles(&scene, (uint64_t)i + 1);
         count += check_occluders(i % 4);
     }
     assert_true(count > 5000);
@@ -317,7 +298,7 @@ static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **stat
                                      (const double[3]){3, -2, 0.25}, (const double[3]){0, -1, 0});
     scene_triangle(&scene, (const double[3]){-4, -3, 4}, (const double[3]){4, -0.5, 4},
                    (const double[3]){3.75, 0, 4});
-    lrcsi_view view = seen_from(0);
+    lrcsi_view view = view_from(0);
     lrcsi_classification classification;
     lrcsi_decisions known;
     sampled(&view, &classification, &known, visible);
