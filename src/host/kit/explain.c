@@ -6,6 +6,8 @@
    remain unexplained. */
 #include "host/kit/search.h"
 
+#include <lrcs/file.h>
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -14,6 +16,7 @@
 #include "base/sort.h"
 #include "host/fail.h"
 
+/* All of these are heuristic: they decide which explanations are offered, and not the verdict. */
 #define REMOVED        0.1  /* fraction of a difference that may remain if it is explained */
 #define REMOVED_RASTER 0.5  /* that fraction where the class of the case allows so much anyway */
 #define CLOSE_FIT      0.02 /* that fraction where few cases support a mistake */
@@ -187,17 +190,6 @@ static int answers_make(const lrcsi_search *search, const lrcsi_mistake *mistake
 
 /* ---- a finding in words ---- */
 
-/* Adds to the sentence of a finding, cut at its size. */
-__attribute__((format(printf, 2, 3))) static void finding_append(lrcs_host_finding *finding,
-                                                                 const char *format, ...)
-{
-    size_t used = strlen(finding->text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(finding->text + used, sizeof finding->text - used, format, list);
-    va_end(list);
-}
-
 /* The next finding, empty; NULL if there is no room for one. */
 static lrcs_host_finding *finding_new(lrcs_host_judgement *job, const char *name)
 {
@@ -290,7 +282,8 @@ static int ties_append(const lrcsi_search *search, const search_score *best,
             fits ? mistake_score(search, search->other_answer, best->factor).score - best->penalty
                  : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
-            finding_append(finding, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
+            lrcs_host_append(finding->text, sizeof finding->text, "%s%s",
+                             ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
     }
     return LRCS_OK;
@@ -318,9 +311,9 @@ static void clipped_append(const lrcsi_search *search, const search_score *best,
         one->explained = cut ? mark : one->explained;
     }
     finding->explained += less;
-    finding_append(finding,
-                   "; in %lu cases less than that: part of the scene is outside the window",
-                   (unsigned long)less);
+    lrcs_host_append(finding->text, sizeof finding->text,
+                     "; in %lu cases less than that: part of the scene is outside the window",
+                     (unsigned long)less);
 }
 
 /* Makes the best explanation a finding and marks its cases. Status: as lrcs_host_judge. */
@@ -342,14 +335,16 @@ static int finding_make(lrcsi_search *search, const search_score *best)
     const char *factor_text = lrcsi_factor_text(best->factor, job->pixels);
     if (best->first == lrcsi_mistakes) {
         finding->name = lrcsi_factor_name(best->factor);
-        finding_append(finding, "%.6g times the truth everywhere: %s", best->factor, factor_text);
+        lrcs_host_append(finding->text, sizeof finding->text, "%.6g times the truth everywhere: %s",
+                         best->factor, factor_text);
     } else {
-        finding_append(finding, "%s", best->first->text);
+        lrcs_host_append(finding->text, sizeof finding->text, "%s", best->first->text);
         if (best->second) {
-            finding_append(finding, "; and %s", best->second->text);
+            lrcs_host_append(finding->text, sizeof finding->text, "; and %s", best->second->text);
         }
         if (best->factor != 1.0) {
-            finding_append(finding, "; and %.6g times that: %s", best->factor, factor_text);
+            lrcs_host_append(finding->text, sizeof finding->text, "; and %.6g times that: %s",
+                             best->factor, factor_text);
         }
     }
     /* 3. The cases that it explains, and the median share of their differences that remains. */

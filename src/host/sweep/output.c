@@ -123,7 +123,7 @@ void lrcs_host_sweep_output_free(lrcs_host_sweep_output *file)
 }
 
 /* Adds a row that is in the file, now or from before, to the statistics. */
-static void file_take(lrcs_host_sweep_output *file, const lrcs_host_row *row)
+static void file_row_add(lrcs_host_sweep_output *file, const lrcs_host_row *row)
 {
     lrcs_host_tally_add(&file->tally, row);
     if (file->row) {
@@ -148,7 +148,7 @@ static int buffer_begin(lrcs_host_sweep_output *file, lrcs_host_error *error)
     return file->stream ? LRCS_OK : lrcsi_host_out_of_memory(error);
 }
 
-static int bytes_place(int descriptor, const char *bytes, size_t size, uint64_t at)
+static int bytes_write_at(int descriptor, const char *bytes, size_t size, uint64_t at)
 {
     while (size > 0) {
         ssize_t done = pwrite(descriptor, bytes, size, (off_t)at);
@@ -177,7 +177,7 @@ static int buffer_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error 
     int good = !ferror(file->stream) && fclose(file->stream) == 0;
     file->stream = NULL;
     if (good && file->path) {
-        good = bytes_place(file->descriptor, file->waiting, file->waiting_size, file->size) == 0;
+        good = bytes_write_at(file->descriptor, file->waiting, file->waiting_size, file->size) == 0;
         file->size += rows;
     } else if (good) {
         good = fwrite(file->waiting, 1, file->waiting_size, stdout) == file->waiting_size &&
@@ -220,7 +220,7 @@ static int rows_recover(lrcs_host_sweep_output *file, const char *path,
                                    (unsigned long long)rows.number - 1,
                                    (unsigned long long)row.index, (unsigned long long)file->next);
         }
-        file_take(file, &row);
+        file_row_add(file, &row);
         good = rows.at;
     }
     int end = more == 0 ? lrcs_host_rows_end(&rows, &fault) : more;
@@ -285,7 +285,7 @@ static int map_recover(lrcs_host_sweep_output *file, char *const head[2], const 
     for (uint64_t i = 0; same && i < file->plan->rows; i++) {
         lrcs_host_row row;
         lrcs_host_sweep_map_row(&map, i, &row);
-        file_take(file, &row);
+        file_row_add(file, &row);
     }
     if (same) {
         memcpy(file->tally.count, map.tally.count, sizeof map.tally.count);
@@ -384,7 +384,7 @@ int lrcs_host_sweep_output_put(lrcs_host_sweep_output *file, const lrcs_host_row
                                lrcs_host_error *error)
 {
     lrcs_host_row_write(file->stream, file->format, &file->head->fields, file->plan, row);
-    file_take(file, row);
+    file_row_add(file, row);
     double now = lrcsi_host_seconds();
     if (now - file->flushed < FILE_PERIOD) {
         return LRCS_OK;
