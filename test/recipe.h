@@ -7,8 +7,9 @@
 
 #include "check.h"
 
-/* Returned: the prepared scene; *work: the memory that is left, behind it. */
+/* Given: models of parts that are files, or NULL. Returned: the prepared scene; *work: the memory that is left, behind it. */
 static inline const lrcs_prepared *recipe_prepare(const lrcs_recipe *recipe,
+                                                  const lrcs_mesh *models,
                                                   const lrcs_build_options *build,
                                                   lrcs_scene *scene, lrcs_work *work)
 {
@@ -16,7 +17,7 @@ static inline const lrcs_prepared *recipe_prepare(const lrcs_recipe *recipe,
     static unsigned char run_area[1u << 27];
     const lrcs_prepared *prepared;
     *work = lrcs_work_make(scene_area, sizeof scene_area);
-    assert_int_equal(lrcs_scene_build(recipe, NULL, build, work, scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(recipe, models, build, work, scene, NULL), LRCS_OK);
     *work = lrcs_work_make(run_area, sizeof run_area);
     assert_int_equal(lrcs_prepare_run(scene, work, &prepared), LRCS_OK);
     return prepared;
@@ -29,7 +30,7 @@ static inline lrcs_result recipe_run(const lrcs_recipe *recipe, const lrcs_build
     lrcs_work work;
     lrcs_pose pose;
     lrcs_result result;
-    const lrcs_prepared *prepared = recipe_prepare(recipe, build, &scene, &work);
+    const lrcs_prepared *prepared = recipe_prepare(recipe, NULL, build, &scene, &work);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, options, &work, &result, NULL, NULL), LRCS_OK);
     return result;

@@ -4,6 +4,7 @@
 #include <lrcs/lrcs.h>
 
 #include "check.h"
+#include "curved.h"
 #include "recipe.h"
 
 #define PI 3.14159265358979323846
@@ -77,7 +78,7 @@ static const lrcs_prepared *half_hidden_prepare(lrcs_shape shape, const double t
     const lrcs_recipe recipe = {
         .part = part, .part_count = 2, .material = material, .material_count = 2};
     const lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
-    return recipe_prepare(&recipe, &build, scene, work);
+    return recipe_prepare(&recipe, NULL, &build, scene, work);
 }
 
 static lrcs_result half_hidden(lrcs_shape shape, const double turn[3][3], double edge,
@@ -216,6 +217,58 @@ static void derivatives_in_the_amplitudes_add_up_to_sigma(void **state)
     check_rel(brdf.A * d[0].dA + brdf.B * d[0].dB, r.sigma_m2, 2e-3);
 }
 
+/* A sphere that a box hides in part, beside a cylinder with curved normals: there each set of
+   parameters has a pose of its own. */
+static void beside_curved_normals_the_result_is_that_of_the_pose(void **state)
+{
+    (void)state;
+    static char text[CURVED_TEXT];
+    lrcs_recipe_part part[3];
+    lrcs_recipe_material material[2] = {
+        {.name = "skin", .brdf = {1, 0.25, 0.3, 0.5}, .error = {.A = 0.1, .B = 0.01}},
+        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    curved_cylinder(text, 12, 0.5, 1, 'v');
+    curved_case model = curved_obj(text);
+    for (int i = 0; i < 3; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material_index = i / 2;
+        part[i].material = material[i / 2].name;
+    }
+    part[0].file = "model";
+    part[0].place.translate[0] = 5;
+    part[0].place.rotate[1][1] = part[0].place.rotate[2][2] = 0; /* it lies along y */
+    part[0].place.rotate[1][2] = -1;
+    part[0].place.rotate[2][1] = 1;
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
+    part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {3, 3, 0.25}};
+    part[2].place.translate[1] = 1.75;
+    part[2].place.translate[2] = 3;
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 3, .material = material, .material_count = 2};
+    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    lrcs_run_options run = exact_options();
+    lrcs_pose pose = lrcs_pose_default();
+    lrcs_scene scene;
+    lrcs_work all;
+    lrcs_result want;
+    lrcs_result got;
+    lrcs_sensitivity d[2];
+    lrcs_uncertainty uncertainty;
+    run.tolerance = 1e-3;
+    const lrcs_prepared *prepared = recipe_prepare(&recipe, &model.mesh, &build, &scene, &all);
+    lrcs_work work = all;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &want, NULL, NULL), LRCS_OK);
+    work = all;
+    assert_int_equal(
+        lrcs_uncertainty_run(prepared, &pose, &run, &how, &work, &got, d, &uncertainty), LRCS_OK);
+    check_same(got.sigma_m2, want.sigma_m2);
+    check_same(got.bound_m2, want.bound_m2);
+    check_rel(d[0].dA + 0.25 * d[0].dB, want.sigma_m2, 5e-3);
+    check_rel(uncertainty.deviation_m2, hypot(0.1 * d[0].dA, 0.01 * d[0].dB), 1e-2);
+    curved_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +278,7 @@ int main(void)
         cmocka_unit_test(the_bound_holds_for_narrow_glints),
         cmocka_unit_test(with_less_memory_the_bound_holds),
         cmocka_unit_test(derivatives_in_the_amplitudes_add_up_to_sigma),
+        cmocka_unit_test(beside_curved_normals_the_result_is_that_of_the_pose),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
