@@ -225,7 +225,7 @@ static void beside_curved_normals_the_result_is_that_of_the_pose(void **state)
     static char text[CURVED_TEXT];
     lrcs_recipe_part part[3];
     lrcs_recipe_material material[2] = {
-        {.name = "skin", .brdf = {1, 0.25, 0.3, 0.5}, .error = {.A = 0.1, .B = 0.01}},
+        {.name = "skin", .brdf = {1, 0.25, 0.3, 0.5}, .error = {.A = 0.1, .B = 0.01, .s = 0.003}},
         {.name = "black", .brdf = {0, 0, 1, 0}}};
     curved_cylinder(text, 12, 0.5, 1, 'v');
     curved_case model = curved_obj(text);
@@ -265,7 +265,8 @@ static void beside_curved_normals_the_result_is_that_of_the_pose(void **state)
     check_same(got.sigma_m2, want.sigma_m2);
     check_same(got.bound_m2, want.bound_m2);
     check_rel(d[0].dA + 0.25 * d[0].dB, want.sigma_m2, 5e-3);
-    check_rel(uncertainty.deviation_m2, hypot(0.1 * d[0].dA, 0.01 * d[0].dB), 1e-2);
+    double deviation = hypot(hypot(0.1 * d[0].dA, 0.01 * d[0].dB), 0.003 * d[0].ds);
+    check_rel(uncertainty.deviation_m2, deviation, 5e-2);
     curved_free(&model);
 }
 
