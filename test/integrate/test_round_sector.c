@@ -103,6 +103,7 @@ static double facet_integral(const lrcsi_round_wall *wall, uint32_t facet)
 static void scene_at_random(int kind, const lrcs_brdf *brdf, patch_scene *s)
 {
     lrcs_shape shape = {.kind = kind, .radius = between(0.3, 1)};
+    shape.parts = kind == LRCS_SHAPE_SPHERE ? LRCS_SHAPE_ALL : LRCS_SHAPE_WALL;
     double d[3];
     double euler[3];
     shape.length = kind == LRCS_SHAPE_PARABOLOID ? between(0.1, 1) : 0;
@@ -113,7 +114,7 @@ static void scene_at_random(int kind, const lrcs_brdf *brdf, patch_scene *s)
         d[k] = between(-1, 1);
     }
     assert_int_equal(lrcsi_rotate_euler("XYZ", euler, s->place.rotate), LRCS_OK);
-    patch_scene_make(&shape, 5e-2, brdf, 0, d, s);
+    patch_scene_make(&shape, 5e-2, brdf, 1, d, s);
 }
 
 /* One sector. Returns 0 if its margins are not all known. */
@@ -153,20 +154,23 @@ static void facets_and_margins_are_together_the_patch(void **state)
     static const int kinds[3] = {LRCS_SHAPE_SPHERE, LRCS_SHAPE_DOME, LRCS_SHAPE_PARABOLOID};
     static patch_scene s;
     double largest = 0;
-    int known = 0;
+    int known[2] = {0, 0}; /* of the inside, of the outside */
     for (int i = 0; i < 12; i++) {
         const lrcs_brdf brdf = {i % 4 ? between(0, 1) : 0, between(0, 1), between(0.2, 1),
                                 between(0, 3)};
         scene_at_random(kinds[i % 3], &brdf, &s);
-        lrcsi_round_wall wall = lrcsi_round_wall_make(&s.view, &s.plan, 0);
-        for (uint32_t f = 0; f < s.scene.part[0].facet_count; f += 1 + random_below(&seed, 40)) {
-            if (lrcsi_patch_exists(s.view.prepared, f) && s.view.facing[f] > 0 &&
-                lrcsi_view_incidence(&s.view, f).cos_theta > 0.3) {
-                known += sector_check(&wall, f, &largest);
+        for (int side = 1; side >= (s.scene.part[0].solid ? 1 : -1); side -= 2) {
+            lrcsi_round_wall wall = lrcsi_round_wall_make(&s.view, &s.plan, 0, side);
+            uint32_t count = s.scene.part[0].facet_count;
+            for (uint32_t f = 0; f < count; f += 1 + random_below(&seed, 40)) {
+                if (lrcsi_patch_exists(s.view.prepared, f) && s.view.facing[f] == side &&
+                    fabs(lrcsi_view_incidence(&s.view, f).cos_theta) > 0.3) {
+                    known[side > 0] += sector_check(&wall, f, &largest);
+                }
             }
         }
     }
-    assert_true(known > 100);
+    assert_true(known[0] > 40 && known[1] > 100);
     assert_true(largest > 1e-4); /* without the margins the test would fail */
 }
 
@@ -179,7 +183,7 @@ static void what_is_not_on_the_wall_is_refused(void **state)
     const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 1};
     s.place = lrcs_place_default();
     patch_scene_make(&dome, 5e-2, &brdf, 0, (const double[3]){0.1, 0.2, 1}, &s);
-    lrcsi_round_wall wall = lrcsi_round_wall_make(&s.view, &s.plan, 0);
+    lrcsi_round_wall wall = lrcsi_round_wall_make(&s.view, &s.plan, 0, 1);
     int walls = 0;
     for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
         lrcsi_round_sector sector;

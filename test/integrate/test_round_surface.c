@@ -201,7 +201,7 @@ static void values_that_rounding_leaves_open_are_infinite(void **state)
     const lrcs_brdf narrow = {1, 1, 1e-9, 1};
     const lrcs_brdf steep = {0, 1, 1, 1e17};
     lrcsi_view view = placed_view(LRCS_SHAPE_SPHERE, &scene);
-    lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0);
+    lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
     const double radius = sqrt(-s.gamma);
     assert_int_equal(lrcsi_round_point_make(&s, s.view, &top), 1);
     for (int i = 0; i < 40; i++) {
