@@ -4,11 +4,14 @@
    line leads to the wall; the outside is an integral over the wall. Nothing else hides anything.
    With two arguments, so many random bowls with other parts in and around them, from a seed:
    coarse and fine meshes must agree within their bounds. */
+#include "integrate/wall/round_rim.h"
+
 #include <lrcs/lrcs.h>
 
 #include <stdlib.h>
 
 #include "check.h"
+#include "patch_scene.h"
 #include "random.h"
 #include "recipe.h"
 
@@ -268,6 +271,67 @@ static void bowls_with_other_parts(void **state)
     check_most(ratio, 0.2); /* of the bounds of fine and coarse meshes */
 }
 
+enum { FACETS = 20000 };
+
+/* What the rim adds to all facets of a dome seen into, if these are what is known of its inside. */
+static void rim_sum(const patch_scene *s, lrcsi_visible_area area, lrcsi_part_set others,
+                    int unknown, double *terms_sum, double *own)
+{
+    static unsigned char memory[1u << 16];
+    static lrcsi_round_terms terms[FACETS];
+    static lrcsi_visible_area visible[FACETS];
+    static lrcsi_part_set parts[FACETS];
+    const uint32_t count = s->scene.part[0].facet_count;
+    const lrcsi_round_wall inside = lrcsi_round_wall_make(&s->view, &s->plan, 0, -1);
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    lrcsi_proximity_band band = {.parts = parts};
+    assert_true(count <= FACETS);
+    for (uint32_t f = 0; f < count; f++) {
+        const int is_inside = s->view.facing[f] < 0;
+        terms[f] = (lrcsi_round_terms){.known = is_inside && (int)(f % 7) >= unknown, .bound = 2};
+        visible[f] = is_inside ? area : (lrcsi_visible_area){.area = 0};
+        parts[f] = lrcsi_part_set_of(0) | others;
+    }
+    assert_int_equal(lrcsi_round_rim_add(&inside, &band, visible, &work, terms), 1);
+    *terms_sum = *own = 0;
+    for (uint32_t f = 0; f < count; f++) {
+        assert_true(terms[f].known || (terms[f].diffuse == 0 && terms[f].own == 0));
+        *terms_sum += fabs(terms[f].diffuse) + fabs(terms[f].glint);
+        *own += terms[f].own;
+    }
+}
+
+/* Margins are integrated only if something of the inside is proved visible there, nothing of it is
+   unknown, and no other part's shadow ends there. Otherwise they are errors. */
+static void margins_count_once_it_is_known_what_is_under_them(void **state)
+{
+    (void)state;
+    static patch_scene s;
+    const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 1, .parts = LRCS_SHAPE_WALL};
+    const lrcs_brdf brdf = {0, 1, 1, 0};
+    const lrcsi_visible_area seen = {.area = 1, .low = 1, .high = 1};
+    const lrcsi_visible_area unproved = {.area = 0, .low = 0, .high = 1e-12};
+    const lrcsi_visible_area hidden = {.area = 0, .low = 0, .high = 0};
+    double sum;
+    double own;
+    double other;
+    s.place = lrcs_place_default();
+    patch_scene_make(&dome, 5e-2, &brdf, 1, (const double[3]){0.8, 0, -0.6}, &s);
+    rim_sum(&s, seen, 0, 0, &sum, &own);
+    assert_true(sum > 0);
+    rim_sum(&s, unproved, 0, 0, &other, &own);
+    assert_true(other == 0);
+    assert_true(own > sum);
+    rim_sum(&s, hidden, 0, 0, &other, &own);
+    assert_true(other == 0);
+    assert_true(own > sum);
+    rim_sum(&s, seen, lrcsi_part_set_of(1), 0, &other, &own);
+    assert_true(other == 0);
+    assert_true(own > sum);
+    rim_sum(&s, seen, 0, 1, &other, &own); /* every seventh facet is in no set */
+    assert_true(other < sum && own > 0);
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 3) {
@@ -281,6 +345,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_paraboloid_seen_into),
         cmocka_unit_test(a_dome_seen_into),
         cmocka_unit_test(bowls_with_other_parts),
+        cmocka_unit_test(margins_count_once_it_is_known_what_is_under_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

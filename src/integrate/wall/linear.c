@@ -65,7 +65,7 @@ static int linear_terms(const lrcs_brdf *brdf, double c, double p, linear_term *
     const double s = brdf->s;
     double u = p * p / (c * c);
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
-    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, u, c, p);
+    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, LRCSI_PATCH_NORMAL_ERR, u, c, p);
     double factor_err = 8 * LRCSI_PATCH_NORMAL_ERR / c; /* of 1/c and 1/c^3, relative */
     if (!(err.glint <= 1 && err.diffuse <= 1 && factor_err <= 1)) {
         return 0;

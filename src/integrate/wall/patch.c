@@ -291,9 +291,9 @@ static const lrcsi_mean_rule *rule_choose(const patch_frame *f, const lrcs_brdf 
     return &lrcsi_mean_rules[n];
 }
 
-lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p)
+lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double e, double u, double c,
+                                          double p)
 {
-    const double e = LRCSI_PATCH_NORMAL_ERR;
     double du = 1.01 * (2 * p * e + e * e + 2 * u * c * e) / (c * c);
     return (lrcsi_term_errors){brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0,
                                du * (0.5 * brdf->m + 1)};
@@ -310,7 +310,7 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     double p;
     double nu;
     double u = patch_tan2(f, sine, cosine, azimuth, &c, &p, &nu);
-    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, u, c, p);
+    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, LRCSI_PATCH_NORMAL_ERR, u, c, p);
     double nu_err = f->axis ? LRCSI_PATCH_NORMAL_ERR / nu : 0;
     if (!(err.glint <= 1 && err.diffuse <= 1 && nu_err <= 1)) {
         return 0;

@@ -58,13 +58,16 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
    errors are computed for any s. */
 #define LRCSI_PATCH_SLOPE_MIN 1e-3
 
-/* The error of a normal of the true surface and the direction to the laser together, and what it
-   changes in both terms of f_r cos^2, relative, up to the factor exp of it
-   (integrate/wall/patch.c). Given: u = tan^2, cosine and sine of the incidence angle. */
+/* The error of a normal of a patch and the direction to the laser together. */
 #define LRCSI_PATCH_NORMAL_ERR (64 * LRCSI_U)
+
+/* What an error e of a unit normal, at most 2^-10 c, changes in both terms of f_r cos^2, relative, up
+   to the factor exp of it (integrate/wall/patch.c). Given: u = tan^2, the cosine c and the sine p of
+   the incidence angle. */
 typedef struct lrcsi_term_errors {
     double glint, diffuse;
 } lrcsi_term_errors;
-lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p);
+lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double e, double u, double c,
+                                          double p);
 
 #endif

@@ -278,7 +278,7 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                                  .above = bound * lrcsi_max(0, gain) * LRCSI_OUTWARD_NANO,
                                  .below = bound * lrcsi_max(0, loss) * LRCSI_OUTWARD_NANO,
                                  .own = sum.remainder,
-                                 .most = bound * LRCSI_OUTWARD_NANO};
+                                 .bound = bound * LRCSI_OUTWARD_NANO};
     return known;
 }
 

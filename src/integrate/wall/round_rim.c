@@ -18,11 +18,12 @@
 
 /* A side of the rim, and what is under it of the inside. */
 typedef struct rim_side {
-    uint32_t facet; /* one that is in C, if possible one of which something is visible; LRCS_NONE:
-                       there is none */
-    int lit;        /* something of that facet is visible */
-    int certain;    /* all facets are in C, and no other part's shadow ends on them */
-    double most;    /* bound on G above those in C */
+    uint32_t facet; /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is
+                       none */
+    int is_summed;  /* the sum includes that facet: something of it may be visible */
+    int is_visible; /* something of one of the facets in C is visible */
+    int is_certain; /* all facets are in C, and no other part's shadow ends on them */
+    double bound;   /* on G above those in C */
 } rim_side;
 
 typedef struct rim_job {
@@ -108,11 +109,12 @@ static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32
     uint32_t count = sectors_above(job, facet, &first);
     for (uint32_t i = 0; i < count; i++) {
         rim_side *side = &job->side[(first + i) % job->part->divisions.around];
-        side->certain &= terms[facet].known && others == 0;
+        side->is_certain &= terms[facet].known && others == 0;
         if (terms[facet].known) {
-            side->facet = side->lit ? side->facet : facet;
-            side->lit |= job->visible[facet].high > 0;
-            side->most = lrcsi_max(side->most, terms[facet].most);
+            side->facet = side->is_summed ? side->facet : facet;
+            side->is_summed |= job->visible[facet].high > 0;
+            side->is_visible |= job->visible[facet].low > 0;
+            side->bound = lrcsi_max(side->bound, terms[facet].bound);
         }
     }
 }
@@ -131,13 +133,14 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
         return;
     }
     lrcsi_round_terms *to = &terms[side->facet];
-    if (lrcsi_round_margin_make(job->wall, at, &margin) && !away && side->certain && side->lit) {
+    if (lrcsi_round_margin_make(job->wall, at, &margin) && !away && side->is_certain &&
+        side->is_summed && side->is_visible) {
         to->glint -= margin.sum.glint;
         to->diffuse -= margin.sum.diffuse;
         to->rounding += margin.sum.rounding;
         to->own += margin.sum.remainder;
     } else {
-        to->own += side->most * margin.area * LRCSI_OUTWARD_NANO;
+        to->own += side->bound * margin.area * LRCSI_OUTWARD_NANO;
     }
 }
 
@@ -165,7 +168,7 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
             lrcsi_round_margin margin;
             lrcsi_round_margin_extent(inside, &sector.side[0], &margin);
             known = margin.width <= 2 * p->proximity.reach[inside->part];
-            job.side[number] = (rim_side){.facet = LRCS_NONE, .certain = 1};
+            job.side[number] = (rim_side){.facet = LRCS_NONE, .is_certain = 1};
             sides++;
         }
     }

@@ -6,8 +6,7 @@
    and sums of numbers below the distances that it is made of, and the error of the part's position.
    An error of the view coordinates x, y moves the point by at most 1 / cos(theta) times as much
    along d. So the relative error of g is at most position_err (1 + 1 / cos(theta)) / |g|, beyond
-   that of its products; normal_errs expresses it in units of LRCSI_PATCH_NORMAL_ERR, of which the
-   errors of both terms are multiples (lrcsi_patch_term_errors). */
+   that of its products. */
 #include "integrate/wall/round_surface.h"
 
 #include <math.h>
@@ -101,10 +100,10 @@ double lrcsi_round_height(const lrcsi_round_surface *surface, const lrcsi_round_
     return surface->view[2] + lrcsi_vec3_dot(point->X, surface->axis[2]);
 }
 
-/* The relative error of g, as a multiple of LRCSI_PATCH_NORMAL_ERR. */
-static double normal_errs(const lrcsi_round_surface *surface, double length, double s)
+/* The relative error of g. */
+static double normal_err(const lrcsi_round_surface *surface, double length, double s)
 {
-    return 2 + surface->position_err / length * (1 + length / s) / LRCSI_PATCH_NORMAL_ERR;
+    return 2 * LRCSI_PATCH_NORMAL_ERR + surface->position_err / length * (1 + length / s);
 }
 
 lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,
@@ -136,15 +135,15 @@ lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, con
     double u = square / (root * root);
     double length = sqrt(square + root * root);
     double secant = length / root;
-    double errs = normal_errs(surface, length, root);
-    double secant_err = 2 * errs * LRCSI_PATCH_NORMAL_ERR * secant;
+    double g_err = normal_err(surface, length, root);
+    double secant_err = 2 * g_err * secant;
     if (!(root > 0) || !isfinite(u) || !(secant_err < 0x1p-10)) {
         return unknown;
     }
     const lrcsi_term_errors err =
-        lrcsi_patch_term_errors(brdf, u, 1 / secant, sqrt(square) / length);
-    const double glint_err = errs * err.glint + secant_err;
-    const double diffuse_err = errs * err.diffuse + secant_err;
+        lrcsi_patch_term_errors(brdf, g_err, u, 1 / secant, sqrt(square) / length);
+    const double glint_err = err.glint + secant_err;
+    const double diffuse_err = err.diffuse + secant_err;
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
     if (!(glint_err <= 0.5 && diffuse_err <= 0.5)) {
         return unknown;
@@ -162,8 +161,8 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
     const double across = lrcsi_length_flat(surface->axis[0][2], surface->axis[1][2]);
     const double steepest = lrcsi_length_flat(lrcsi_vec3_dot(point->g, surface->axis[0]),
                                               lrcsi_vec3_dot(point->g, surface->axis[1]));
-    const double rounding = 4 * normal_errs(surface, point->length, s) * LRCSI_PATCH_NORMAL_ERR *
-                            point->length * point->length;
+    const double rounding =
+        4 * normal_err(surface, point->length, s) * point->length * point->length;
     e = e * LRCSI_OUTWARD_MICRO + surface->position_err;
     double b = e * surface->in_plane;
     double c = 2 * e * steepest + e * e;

@@ -11,7 +11,7 @@ typedef struct lrcsi_round_terms {
     double visibility;   /* bound on the error of its visible area */
     double above, below; /* bounds on T - M and M - T that other parts cause */
     double own;          /* bound on |T - M| that its own part causes */
-    double most;         /* bound on G above the facet, and above what is next to it */
+    double bound;        /* on G above the facet, and above what is next to it: not added */
 } lrcsi_round_terms;
 
 #endif
