@@ -34,6 +34,7 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
     lrcsi_classification *classification = o->classification;
     o->area = lrcsi_visible_area_exact(0);
     o->single.facet = o->single.target.facet = facet;
+    o->single.target.reach = o->single.target.perimeter = o->single.piece_err = 0;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
         return;
@@ -41,6 +42,9 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
     if (!classification->undecided[facet]) {
         o->area = uniform_area(o, facet);
         o->whole = o->area.low > 0;
+        if (o->whole) {
+            lrcsi_target_make(classification->view, facet, &o->single.target);
+        }
     } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter,
                                      &o->single.crossings)) {
         o->undecided = 1;
@@ -54,7 +58,6 @@ int lrcsi_occlude_next(lrcsi_occlusion *o)
         return o->undecided && lrcsi_facet_cells_next(&o->single);
     }
     o->whole = 0;
-    lrcsi_target_make(o->classification->view, o->single.facet, &o->single.target);
     lrcsi_clip_triangle((const double(*)[2])o->single.target.corner, &o->single.piece);
     return 1;
 }

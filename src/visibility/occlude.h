@@ -33,16 +33,17 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
 
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in
-   the frame of o->single.target (lrcsi_target_weights leads back to the facet). An entirely visible
+   the frame of o->single.target, which `open` has made if there may be pieces (lrcsi_target_weights
+   leads back to the facet). An entirely visible
    facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
    pieces. The area in which the union of the pieces differs from the visible region is at most
-       high - low + 20 u reach perimeter,
-   where high and low are those of the returned area, and the second term, with the reach and the
-   perimeter of o->single.target, is due to the rounding of the corners: lrcsi_occlude_corner_err.
- */
-static inline double lrcsi_occlude_corner_err(const lrcsi_target *target)
+       high - low + lrcsi_occlude_piece_err,
+   where high and low are those of the returned area, and the last term, for when `next` has returned
+   0, is due to the rounding of the corners, 20 u reach perimeter with those of o->single.target, and
+   to what cells leave out (o->single.piece_err). Without pieces it is 0. */
+static inline double lrcsi_occlude_piece_err(const lrcsi_occlusion *o)
 {
-    return 20 * LRCSI_U * target->reach * target->perimeter;
+    return 20 * LRCSI_U * o->single.target.reach * o->single.target.perimeter + o->single.piece_err;
 }
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occlusion *o);

@@ -205,14 +205,14 @@ static lrcsi_curve_terms curve_from_pieces(const lrcsi_curve_integral *integral,
                                            lrcsi_visible_area *visible)
 {
     const lrcsi_target *target = &o->single.target;
-    double area_err = lrcsi_occlude_corner_err(target);
+    double area_err = 0;
     lrcsi_cubature sum = lrcsi_cubature_start(&integral->surface);
     sum.surface.position_err = lrcsi_curve_position_err(integral, target);
     while (lrcsi_occlude_next(o)) {
         area_err += piece_add(integral, target, (const double(*)[2])o->single.piece.corner,
                               o->single.piece.count, &sum);
     }
-    area_err += o->single.piece_err;
+    area_err += lrcsi_occlude_piece_err(o);
     *visible = lrcsi_visible_area_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curve_terms part = integral_part(integral, &sum, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *

@@ -227,7 +227,7 @@ static double profile_add_pieces(profile_run *run, lrcsi_range_facet *f, uint32_
     lrcsi_visible_area visible =
         lrcsi_visible_area_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
-        area_err += lrcsi_occlude_corner_err(&o->single.target) + o->single.piece_err;
+        area_err += lrcsi_occlude_piece_err(o);
     }
     if (run->visible) {
         run->visible[facet] = visible;

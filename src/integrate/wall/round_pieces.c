@@ -265,7 +265,7 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                 (!(area > 0) || triangle_integrate(job, (const double(*)[2])corner, area, &sum));
         }
     }
-    area_err += lrcsi_occlude_corner_err(target) + (o->undecided ? o->single.piece_err : 0);
+    area_err += lrcsi_occlude_piece_err(o);
     lrcsi_visible_area area = lrcsi_occlude_close(o);
     double gain = lrcsi_min(job->band->gain_aligned[facet] * projected, projected - area.low);
     double loss = lrcsi_min(job->band->loss_aligned[facet] * projected, area.high);
