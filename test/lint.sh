@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# clang-tidy and cppcheck over src, clang-format over all C files but generated tables. Installs
-# nothing. Exit 1 where one of them has a word to say, or is missing.
+# clang-tidy and cppcheck over src, clang-format over all C files but generated tables, the length
+# of lines. Installs nothing. Exit 1 where one of them has a word to say, or is missing.
 # usage: lint.sh [BUILD]    (in the root; BUILD holds what is generated)
 build=${1:-build}
 bad=0
@@ -40,6 +40,14 @@ if ! find $folders -name '*.[ch]' | LC_ALL=C sort |
     sed -n 's/: error: code should be clang-formatted.*//p' "$log" | cut -d: -f1 | LC_ALL=C sort -u |
         sed 's/^/not formatted (clang-format -i FILE): /' >&2
     grep -q 'should be clang-formatted' "$log" || cat "$log" >&2
+    bad=1
+fi
+
+# The formatter leaves comments as they are.
+echo 'lint: lines of at most 100 columns in src and include'
+if ! find src include -name '*.[ch]' | LC_ALL=C sort |
+    xargs awk 'length($0) > 100 { print FILENAME ":" FNR ": " length($0) " columns"; long = 1 }
+        END { exit long }' >&2; then
     bad=1
 fi
 [ $bad -eq 0 ] && echo 'lint: clean'

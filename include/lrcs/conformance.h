@@ -10,7 +10,7 @@
 /* ---- kits ---- */
 
 #define LRCS_HOST_KIT_TIERS          5   /* from a plate to hard cases */
-#define LRCS_HOST_KIT_NAME           32u /* size of the name of a scene, an attitude or a material */
+#define LRCS_HOST_KIT_NAME           32u /* size of names of scenes, attitudes and materials */
 #define LRCS_HOST_KIT_MATERIALS_TEXT "materials.csv"
 #define LRCS_HOST_KIT_CASES_TEXT     "cases.csv"
 

@@ -25,7 +25,7 @@
 #define FIT_S_MAX         2.0
 #define FIT_M_MAX         1000.0
 #define FIT_AMPLITUDE_MAX 1e9
-#define FIT_S_DIVISOR     6.0 /* with s a sixth of the smallest tangent, a glint is exp(-36) there */
+#define FIT_S_DIVISOR     6.0 /* s a sixth of the smallest tangent: a glint is exp(-36) there */
 
 /* For the first estimate of relative errors: readings below this fraction of the largest are as
    uncertain as a reading of this fraction. */

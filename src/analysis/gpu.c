@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Draws a view as graphics hardware does. This file decides which facet owns which pixel, by the
-   arithmetic and rules of that hardware; visibility/raster/raster_draw.c and visibility/occlude.c decide
-   what the laser truly sees. */
+   arithmetic and rules of that hardware; visibility/raster/raster_draw.c and visibility/occlude.c
+   decide what the laser truly sees. */
 #include "analysis/gpu.h"
 
 #include <math.h>

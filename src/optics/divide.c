@@ -26,7 +26,7 @@
 #define AROUND_MIN   8u
 #define DIVIDE_NODES 48  /* of the midpoint rule */
 #define GLINT_WIDTHS 4.0 /* the glint is taken to extend over so many of its widths */
-#define STEP_MAX     0.2 /* rad, the largest step between aspects sampled near the glint or the rim */
+#define STEP_MAX     0.2 /* rad, the largest step between aspects near the glint or the rim */
 /* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
 #define DIVIDE_AIM    0.8
 #define DIVIDE_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */

@@ -16,7 +16,7 @@
 #define MAP_RIGHT          (LRCSI_CHART_WIDTH - 130.0)
 #define MAP_BAR            16.0 /* width of the scale of colours */
 #define MAP_STEPS          128
-#define MAP_OVERLAP        1.0 /* cells overlap the next by this much, so that no gaps are visible */
+#define MAP_OVERLAP        1.0 /* cells overlap the next by this much: no gaps are visible */
 #define MAP_COLOUR_MISSING 0xbdbdbdu
 #define MAP_LABELS         9.0
 

@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST            0.9 /* share of the failing cases that a cause must explain */
-#define LEAST           5u  /* number of failing cases; fewer prove nothing */
-#define DIGITS          9   /* with this many digits rounding is harmless */
-#define SAME_DIGIT      1e-11 /* relative: a number this near to one with few digits is taken for it */
+#define MOST            0.9   /* share of the failing cases that a cause must explain */
+#define LEAST           5u    /* number of failing cases; fewer prove nothing */
+#define DIGITS          9     /* with this many digits rounding is harmless */
+#define SAME_DIGIT      1e-11 /* relative: a number so near to one of few digits is taken for it */
 #define Z_FIGHTING_MOST 256u  /* scenes with more facets are not searched for coplanar facets */
 #define SKINS_TOUCH     60    /* a distance of 2^-60 m counts as none */
 #define COARSEST        16.0  /* pixels per side of the coarsest raster considered, */

@@ -61,9 +61,9 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
 /* The error of a normal of a patch and the direction to the laser together. */
 #define LRCSI_PATCH_NORMAL_ERR (64 * LRCSI_U)
 
-/* What an error e of a unit normal, at most 2^-10 c, changes in both terms of f_r cos^2, relative, up
-   to the factor exp of it (integrate/wall/patch.c). Given: u = tan^2, the cosine c and the sine p of
-   the incidence angle. */
+/* What an error e of a unit normal, at most 2^-10 c, changes in both terms of f_r cos^2, relative,
+   up to the factor exp of it (integrate/wall/patch.c). Given: u = tan^2, the cosine c and the sine
+   p of the incidence angle. */
 typedef struct lrcsi_term_errors {
     double glint, diffuse;
 } lrcsi_term_errors;

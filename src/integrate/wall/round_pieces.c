@@ -25,12 +25,15 @@
 #define REMAINDER_HIGH 0x1p-12
 /* A sector is not used if the remainder is larger than this, relative to G. */
 #define REMAINDER_MAX 0x1p-10
+/* A triangle is divided if its remainder is larger than this times the one that it should have:
+   heuristic. */
+#define TARGET_MISSED 4
 /* A triangle is divided into at most the square of this number. */
 #define DIVISIONS_MAX 8
 /* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
    Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
-   inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within 12 + 2 (1 + 8) =
-   30 reaches of the facet (visibility/proximity/event_band.c, 5). */
+   inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within
+   12 + 2 (1 + 8) = 30 reaches of the facet (visibility/proximity/event_band.c, 5). */
 #define MAX_REACHES 12.0
 
 typedef struct pieces_job {
@@ -171,7 +174,8 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
                 lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, &point, here);
             double scale = at.glint + at.diffuse;
             triangle_rule rule = triangle_rule_choose(job, &point, radius, job->target * scale);
-            fine = rule.remainder <= (n < DIVISIONS_MAX ? 4 * job->target : REMAINDER_MAX) * scale;
+            fine = rule.remainder <=
+                   (n < DIVISIONS_MAX ? TARGET_MISSED * job->target : REMAINDER_MAX) * scale;
             if (fine) {
                 triangle_add(job, &point, (const double(*)[2])part, area / (n * n), rule.rule,
                              &all);
@@ -358,7 +362,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
         if (state == 0) {
             continue;
         }
-        (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* known, or it were not used */
+        (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* it is known */
         if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
             terms[to].glint += margin.sum.glint;
             terms[to].diffuse += margin.sum.diffuse;

@@ -3,12 +3,13 @@
    surface above every point of the view plane: the facets decide only what is visible, and not how
    the surface reflects.
 
-   Let C be a set of sectors of one side of a wall, the outside or the inside, f their facets, U their patches, and f' and U' the
-   projections of these. Let G be what the true surface reflects per unit of projected area
-   (integrate/wall/round_surface.h), w 1 where a facet is visible and 0 where it is not, and v the same
-   for the true surface, both as functions on the view plane. The truth of C is T = Int_U' G v. Used
-   is M = sum over f of Int_f' G w, and what is between U' and f' along the border of C.
-   1. Within the facets of C, v and w differ only on the fractions gain_aligned and loss_aligned of
+   Let C be a set of sectors of one side of a wall, the outside or the inside, f their facets, U
+   their patches, and f' and U' the projections of these. Let G be what the true surface reflects
+   per unit of projected area (integrate/wall/round_surface.h), W 1 where a facet is visible and 0
+   where it is not, and V the same for the true surface, both as functions on the view plane. The
+   truth of C is T = Int_U' G V. Used is M = sum over f of Int_f' G W, and what is between U' and f'
+   along the border of C.
+   1. Within the facets of C, V and W differ only on the fractions gain_aligned and loss_aligned of
       visibility/proximity/event_band.c, 5; and on the inside between the projected openings of the
       true surface and of the facets (integrate/wall/round_rim.h).
    2. Inside C, every point of the view plane belongs to one facet and to one patch. At the border
@@ -17,8 +18,8 @@
       with the same parameter. The integral over U' exceeds that over f' by the sum over all sides
       of the integrals over the margins, with the sign of their areas (Stokes' theorem for the
       homotopy of both borders). Sides inside C cancel.
-   3. Beside a side that is free there, w = v, all 1 or all 0: there the integral of G over the margin
-      is added, or nothing. Any other margin is an error, either way. []
+   3. Beside a side that is free there, W = V, all 1 or all 0: there the integral of G over the
+      margin is added, or nothing. Any other margin is an error, either way. []
 
    The integrals of G over visible pieces use rules of positive weights that are exact up to degree
    n: twice the largest difference between G and its Taylor polynomial bounds their error. */

@@ -87,8 +87,8 @@ static uint32_t sectors_above(const rim_job *job, uint32_t facet, uint32_t *firs
     return (uint32_t)lrcsi_min(high - low + 1, around);
 }
 
-/* The sector at the rim of which a facet is the first: its number, and its sides, of which the first
-   lies on the rim. Returns 0 if there is none. */
+/* The sector at the rim of which a facet is the first: its number, and its sides, of which the
+   first lies on the rim. Returns 0 if there is none. */
 static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *sector,
                       uint32_t *number)
 {
@@ -144,10 +144,9 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
     }
 }
 
-/* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets under
-   it meet a band of their own part (visibility/proximity/event_band.c, 3).
-   2. Which facets are under which sides.
-   3. The margins of the sides. */
+/* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets
+   under it meet a band of their own part (visibility/proximity/event_band.c, 3). 2. Which facets
+   are under which sides. 3. The margins of the sides. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
                         const lrcsi_visible_area *visible, lrcs_work *work,
                         lrcsi_round_terms *terms)

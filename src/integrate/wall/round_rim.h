@@ -9,11 +9,11 @@
    is outside the sector of that facet, the opening is smaller than the polygon by the margin, and
    the integral is to be subtracted. This holds if the margin lies above facets of C alone, and no
    shadow of another part ends on these (lrcsi_proximity_band.parts): then other parts hide all of
-   them, in truth too, or nothing of them. They are connected, since the inside above a neighbourhood
-   of the margin is; so they hide nothing if anything of one of these facets is visible. Of any other
-   margin G's bound times the area is an error, either way. Where the side's facet faces away, and
-   the true wall does too, the side is part of the border of C, or belongs to a patch that is
-   entirely visible, and there is nothing to add. */
+   them, in truth too, or nothing of them. They are connected, since the inside above a
+   neighbourhood of the margin is; so they hide nothing if anything of one of these facets is
+   visible. Of any other margin G's bound times the area is an error, either way. Where the side's
+   facet faces away, and the true wall does too, the side is part of the border of C, or belongs to
+   a patch that is entirely visible, and there is nothing to add. */
 #ifndef LRCSI_ROUND_RIM_H
 #define LRCSI_ROUND_RIM_H
 
@@ -22,9 +22,9 @@
 #include "visibility/proximity/proximity_band.h"
 #include "visibility/visible_area.h"
 
-/* For the wall's inside. Given: the visible areas of all facets, terms[facet_count] with all pieces.
-   Returns 0, and adds nothing, if there is no memory, a side is not known, or a margin is wider than
-   twice the part's reach; then no facet of the inside may be in a set. */
+/* For the wall's inside. Given: the visible areas of all facets, terms[facet_count] with all
+   pieces. Returns 0, and adds nothing, if there is no memory, a side is not known, or a margin is
+   wider than twice the part's reach; then no facet of the inside may be in a set. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
                         const lrcsi_visible_area *visible, lrcs_work *work,
                         lrcsi_round_terms *terms);

@@ -134,7 +134,8 @@ static void margin_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *si
     *slope = (part->turned + *slope * part->half) * LRCSI_OUTWARD_NANO;
 }
 
-/* M for such parameters, and up to `out` times as far from the chord as the arc; and the extent. */
+/* G_max for such parameters, and up to `out` times as far from the chord as the arc; and the
+   extent. */
 static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                            const margin_part *part, double r, double out, double *width,
                            double *slope)
@@ -232,8 +233,9 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
 
 /* The margin is divided until the remainder is small compared with its size.
 
-   Inclination. Where M is finite over a part, w = 1 / cos^2 is there at most 1.5 times its value at
-   the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59 and tan < 8. */
+   Inclination. Where G_max is finite over a part, w = 1 / cos^2 is there at most 1.5 times its
+   value at the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59
+   and tan < 8. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin)
 {

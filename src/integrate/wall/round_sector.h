@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The sectors of a round wall in a view, and the margins of their sides: the area in projection
-   between a side and the arc of the true surface that it stands for (integrate/wall/round_pieces.h). */
+   between a side and the arc of the true surface that it stands for
+   (integrate/wall/round_pieces.h). */
 #ifndef LRCSI_ROUND_SECTOR_H
 #define LRCSI_ROUND_SECTOR_H
 
@@ -20,8 +21,8 @@ typedef struct lrcsi_round_wall {
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t part, int side);
 
-/* Ratios of e to the largest |v| (integrate/wall/round_surface.h) for which M is computed; the smallest
-   remainder is used. */
+/* Ratios of e to the largest |v| (integrate/wall/round_surface.h) for which G_max is computed; the
+   smallest remainder is used. */
 #define LRCSI_ROUND_RATIOS 6
 extern const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS];
 
@@ -67,8 +68,8 @@ typedef struct lrcsi_round_margin {
 void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                                lrcsi_round_margin *margin);
 
-/* All of it. Returns 0 if only width and area are known, or if the tangent of the true surface's inclination to the view
-   plane may exceed 8 above it. */
+/* All of it. Returns 0 if only width and area are known, or if the tangent of the true surface's
+   inclination to the view plane may exceed 8 above it. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin);
 

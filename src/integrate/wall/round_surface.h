@@ -24,9 +24,9 @@
    <= e |z_p| + |t| |z . d|, z_p the part of the axis in the view plane. |g|^2 is R^2 on a sphere,
    and R^2 + beta^2 - 2 beta z on a paraboloid: it changes by at most eta = 2 beta |dz|. So |w' - w|
    <= (eta + w delta) / (S^2 - delta) = omega. With omega <= w/2, |G| is at most a (w + omega)^(5/2)
-   exp((omega - u) / s^2) + b (w - omega)^(-(m + 1)/2) = M. Since G is analytic there, its Taylor
-   polynomial of degree n in v differs from it by at most M q^(n+1) / (1 - q),  q = |v| / e, for
-   real v (a power series in one variable along every line). */
+   exp((omega - u) / s^2) + b (w - omega)^(-(m + 1)/2) = G_max. Since G is analytic there, its
+   Taylor polynomial of degree n in v differs from it by at most G_max q^(n+1) / (1 - q),  q = |v| /
+   e, for real v (a power series in one variable along every line). */
 #ifndef LRCSI_ROUND_SURFACE_H
 #define LRCSI_ROUND_SURFACE_H
 
@@ -46,7 +46,8 @@ typedef struct lrcsi_round_surface {
                             1 / cos(theta) along d */
 } lrcsi_round_surface;
 
-/* For a part that is a round shape, placed without distortion. side: 1 the outside, -1 the inside. */
+/* For a part that is a round shape, placed without distortion. side: 1 the outside, -1 the inside.
+ */
 lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t part, int side);
 
 /* A point of the wall. */
@@ -74,7 +75,7 @@ typedef struct lrcsi_round_value {
 lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,
                                          const lrcsi_round_point *point, const double v[2]);
 
-/* M for complex displacements of at most e; infinite if the conditions above do not hold. */
+/* G_max for complex displacements of at most e; infinite if the conditions above do not hold. */
 double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,
                          const lrcsi_round_point *point, double e);
 

@@ -3,7 +3,7 @@
 #ifndef LRCSI_ROUND_TERMS_H
 #define LRCSI_ROUND_TERMS_H
 
-/* Scaled, without the factor 4 pi. */
+/* Scaled, without the factor 4 pi. T and M: integrate/wall/round_pieces.h. */
 typedef struct lrcsi_round_terms {
     int known;             /* 0: the facet is not integrated in this way */
     double glint, diffuse; /* M */

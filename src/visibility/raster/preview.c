@@ -33,7 +33,8 @@ typedef struct preview_counts {
 /* Facets with fewer samples than this are corrected for bias (preview_bias). Heuristic. */
 #define FEW_SAMPLES 16u
 
-/* Over how many adjacent facets visible fractions propagate to facets without samples. Heuristic. */
+/* Heuristic: over how many adjacent facets visible fractions propagate to facets without samples.
+ */
 enum { FRACTION_ROUNDS = 8 };
 
 typedef struct preview_job {
