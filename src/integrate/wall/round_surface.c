@@ -101,7 +101,7 @@ double lrcsi_round_height(const lrcsi_round_surface *surface, const lrcsi_round_
 }
 
 /* The relative error of g. */
-static double normal_err(const lrcsi_round_surface *surface, double length, double s)
+static double gradient_err(const lrcsi_round_surface *surface, double length, double s)
 {
     return 2 * LRCSI_PATCH_NORMAL_ERR + surface->position_err / length * (1 + length / s);
 }
@@ -135,7 +135,7 @@ lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, con
     double u = square / (root * root);
     double length = sqrt(square + root * root);
     double secant = length / root;
-    double g_err = normal_err(surface, length, root);
+    double g_err = gradient_err(surface, length, root);
     double secant_err = 2 * g_err * secant;
     if (!(root > 0) || !isfinite(u) || !(secant_err < 0x1p-10)) {
         return unknown;
@@ -162,7 +162,7 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
     const double steepest = lrcsi_length_flat(lrcsi_vec3_dot(point->g, surface->axis[0]),
                                               lrcsi_vec3_dot(point->g, surface->axis[1]));
     const double rounding =
-        4 * normal_err(surface, point->length, s) * point->length * point->length;
+        4 * gradient_err(surface, point->length, s) * point->length * point->length;
     e = e * LRCSI_OUTWARD_MICRO + surface->position_err;
     double b = e * surface->in_plane;
     double c = 2 * e * steepest + e * e;
