@@ -17,7 +17,6 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
-#include "visibility/proximity/proximity_hidden.h"
 #include "visibility/raster/preview.h"
 
 lrcs_run_options lrcs_run_options_default(void)
@@ -77,7 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_masked_band_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LRCSI_SIGMA_SIZE_MAX;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =

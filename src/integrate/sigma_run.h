@@ -41,14 +41,15 @@ typedef struct lrcsi_sigma {
     lrcsi_meter meter;        /* limit on the steps of the visibility computation */
     lrcsi_clear_shapes clear; /* those evaluated by their closed forms: method auto only */
     lrcsi_plan plan;          /* is not changed once it is made */
-    int classified;           /* the classification is made, and the band if the plan needs it */
+    int classified;           /* the classification is made, and the bands if the plan needs them */
     lrcsi_classification classification;
-    lrcsi_proximity_band band;
-    lrcsi_visible_area *visible;           /* [facet_count]; NULL: the plan implies all areas */
-    const unsigned char *answer;           /* as in lrcsi_areas */
-    lrcsi_moment *moment_memory;           /* [facet_count]; NULL: moments are not wanted */
-    const lrcsi_moment *moment;            /* as in lrcsi_areas */
-    unsigned char *corrected;              /* as in lrcsi_total_details */
+    lrcsi_proximity_band band;   /* is not changed once it is made */
+    lrcsi_masked_band masked;    /* the band, less what an attempt has found to be hidden */
+    lrcsi_visible_area *visible; /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer; /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;  /* as in lrcsi_areas */
+    unsigned char *corrected;    /* as in lrcsi_total_details */
     lrcsi_round_terms *round_terms_memory; /* [facet_count]; NULL: pieces are not wanted */
     const lrcsi_round_terms *round_terms;  /* as in lrcsi_areas */
     lrcsi_curve_terms *curve_terms;        /* [facet_count]; NULL: all normals are flat */

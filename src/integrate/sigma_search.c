@@ -18,6 +18,8 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
+        status = status == LRCS_OK ? lrcsi_masked_band_make(&run->band, run->work, &run->masked)
+                                   : status;
     }
     run->classified = status == LRCS_OK;
     return status;
