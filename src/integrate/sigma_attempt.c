@@ -26,6 +26,8 @@
    next bound is known only approximately. A heuristic: it affects only the time. */
 #define BOUND_MARGIN 1.2
 
+#define NO_MEMORY_REASON "too little memory for clipping"
+
 /* The size of the next raster, a multiple of 64 pixels. With the size N the visibility bound falls
    as 1/N, and the estimated error as N^(-4/3) or faster on most models. These are choices that
    affect only the time: each raster is judged by its own bound or estimate. */
@@ -86,7 +88,7 @@ static lrcsi_attempt attempt_raster(const lrcsi_sigma *run, uint32_t size, const
    1. The size of the next raster. If the options accept any answer, the coarsest does.
    2. Clipping is tried before the raster if it is likely to take little longer, because the
       estimate of the raster may not be accepted; after an abandoned attempt it is tried again only
-      with a larger limit. Any answer is accepted from a raster.
+      with a larger limit, and not at all if memory was short. Any answer is accepted from a raster.
    3. The raster; the first one is cheap. */
 static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
@@ -100,8 +102,10 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
         attempts->size = next_size(run);
     } else if (last->end == LRCSI_ATTEMPT_ABANDONED) {
         attempts->abandoned_ns = last->limit_ns;
+    } else if (last->end == LRCSI_ATTEMPT_NO_MEMORY) {
+        attempts->memory_short = 1;
     }
-    if (last->method != LRCS_METHOD_EXACT && !any) { /* 2 */
+    if (last->method != LRCS_METHOD_EXACT && !any && !attempts->memory_short) { /* 2 */
         double limit_ns = lrcsi_cost_draw(cost, attempts->size) *
                           (attempts->rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT);
         double undecided =
@@ -116,7 +120,8 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
         attempts->rasters == 0 ? lrcsi_cost_first(cost, attempts->size) : attempts->size;
     attempts->rasters++;
     return attempt_raster(run, size,
-                          any ? run->plan.reason
+                          any                      ? run->plan.reason
+                          : attempts->memory_short ? NO_MEMORY_REASON
                           : attempts->abandoned_ns > 0
                               ? "clipping was begun, and took longer than a raster"
                               : "a raster is estimated to cost less than clipping");
@@ -138,8 +143,8 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
     if (last.method == LRCS_METHOD_EXACT && last.end == LRCSI_ATTEMPT_FOUND) {
         return 0;
     }
-    if (last.end == LRCSI_ATTEMPT_NO_MEMORY) { /* 1 */
-        attempts->current = attempt_raster(run, plan->size, "too little memory for clipping");
+    if (last.end == LRCSI_ATTEMPT_NO_MEMORY && last.limit_ns == HUGE_VAL) { /* 1 */
+        attempts->current = attempt_raster(run, plan->size, NO_MEMORY_REASON);
         attempts->current.samples_only = 0;
         attempts->current.fallback = 1;
     } else if (last.method == LRCS_METHOD_AUTO && plan->method == LRCS_METHOD_EXACT) {

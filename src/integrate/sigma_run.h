@@ -75,7 +75,7 @@ typedef struct lrcsi_attempt {
     int fallback;       /* a raster in place of clipping, for which memory was short */
     lrcsi_meter meter;  /* the run's, with the limit of this attempt */
     int end;            /* lrcsi_attempt_end */
-    size_t mark;        /* of the work area, before what an abandoned attempt leaves in it */
+    size_t mark; /* of the work area, before what an attempt leaves in it that found nothing */
 } lrcsi_attempt;
 
 /* The attempts of a run so far. Before the first: zeros, and the cost. */
@@ -86,6 +86,7 @@ typedef struct lrcsi_attempts {
     uint32_t size;       /* of the next raster */
     uint32_t rasters;    /* chosen so far */
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
+    int memory_short;    /* memory was short for limited clipping, which is not tried again */
     /* What rasters share whose areas are proved: */
     int decided; /* decisions are made, and are the last item in the work area */
     lrcsi_decisions decisions;
