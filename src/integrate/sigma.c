@@ -7,7 +7,7 @@
    3. lrcsi_view_project, lrcsi_sigma_classify (sigma_search.c): view coordinates, undecided facets;
    4. until an answer is accepted: lrcsi_attempts_next (sigma_attempt.c) chooses a method or a
       resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it, lrcsi_sigma_sum
-      (sigma_sum.c) sums over them. */
+      (sigma_sum.c) sums over them, lrcsi_attempts_end (sigma_attempt.c) ends the attempt. */
 #include "integrate/sigma.h"
 
 #include <math.h>
@@ -184,7 +184,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
             request->last == LRCSI_SIGMA_SUM) {
             lrcsi_sigma_sum(run, &attempt->meter);
         }
-        lrcsi_sigma_search_end(run, attempt);
+        lrcsi_attempts_end(run, &attempts);
     }
     lrcsi_sigma_release_decisions(run, &attempts);
     return status;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Which attempts to find visible areas a run makes, in which order: by which method, at which
-   resolution of a raster, and within which limit. This file decides neither how areas are found
-   (sigma_search.c) nor whether their sum is accepted (sigma_sum.c). All constants and estimates
-   here affect only the time that a run takes, and which of several valid answers it gives. */
+   resolution of a raster, and within which limit; and what becomes of one that has ended. This file
+   decides neither how areas are found (sigma_search.c) nor whether their sum is accepted
+   (sigma_sum.c). All constants and estimates here affect only the time that a run takes, and which
+   of several valid answers it gives. */
 #include <math.h>
 
 #include "integrate/sigma_run.h"
@@ -164,4 +165,18 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
         attempts->current = attempt_raster(run, drawn ? next_size(run) : plan->size, plan->reason);
     }
     return 1;
+}
+
+void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts)
+{
+    lrcsi_attempt *attempt = &attempts->current;
+    run->meter.taken = attempt->meter.taken;
+    if (attempt->limit_ns == HUGE_VAL) {
+        run->meter.spent = attempt->meter.spent;
+    } else if (attempt->end == LRCSI_ATTEMPT_FOUND && attempt->meter.spent) {
+        attempt->end = LRCSI_ATTEMPT_ABANDONED;
+    }
+    if (attempt->end != LRCSI_ATTEMPT_FOUND) {
+        run->work->used = attempt->mark;
+    }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a run of a pose is asked for, its state, and the functions by which its four files share
-   the work: sigma.c runs the stages, sigma_attempt.c chooses how visible areas are searched for,
-   sigma_search.c finds them, sigma_sum.c sums over them. */
+   the work: sigma.c runs the stages, sigma_attempt.c chooses how visible areas are searched for and
+   ends each attempt, sigma_search.c finds them, sigma_sum.c sums over them. */
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
@@ -104,6 +104,11 @@ typedef struct lrcsi_attempts {
    improve it. */
 int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
 
+/* Ends attempts->current, after the sum over its areas if it found any: its steps count as the
+   run's, it is abandoned if it has spent those of its limit, and the work area is released if it
+   has not found areas. */
+void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
+
 /* --- sigma_search.c --------------------------------------------------------------------------- */
 
 /* Finds which facets are undecided, and the proximity band if the plan needs it; once per pose.
@@ -114,10 +119,6 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
    were found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended;
    others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
-
-/* Ends an attempt after the sum over its areas: its steps count as the run's, and it is abandoned
-   if it has spent those of its limit. */
-void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt);
 
 /* Releases the memory that rasters share: before other memory is taken that is to stay. */
 void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts);

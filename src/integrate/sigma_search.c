@@ -55,7 +55,7 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Clips, within the limit of the attempt if it has one: classifies, unless that is done, and clips
    undecided facets. Steps may run out in either. What an attempt leaves in the work area that has
-   not found areas is released by lrcsi_sigma_search_end, except a classification that is complete.
+   not found areas is released by lrcsi_attempts_end, except a classification that is complete.
    Any failure but for lack of memory is one of the run. */
 static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
@@ -139,18 +139,4 @@ int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
     }
     lrcsi_sigma_release_decisions(run, attempts);
     return search_by_clipping(run, &attempts->cost, attempt);
-}
-
-void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt)
-{
-    const int limited = attempt->limit_ns < HUGE_VAL;
-    run->meter.taken = attempt->meter.taken;
-    if (!limited) {
-        run->meter.spent = attempt->meter.spent;
-    } else if (attempt->end == LRCSI_ATTEMPT_FOUND && attempt->meter.spent) {
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
-    }
-    if (attempt->end != LRCSI_ATTEMPT_FOUND) {
-        run->work->used = attempt->mark;
-    }
 }
