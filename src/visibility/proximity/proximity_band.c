@@ -237,7 +237,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-            p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_EVENT_BAND_COS_ERR) {
+            p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
