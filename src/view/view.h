@@ -126,8 +126,8 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
 /* May a true surface whose normals differ from a facet's by at most `turn`, rad, face the laser? A
    normal at less than pi / 2 from the direction takes the facet's to less than pi / 2 + turn, of
-   which the cosine is above -sin(turn) >= -turn; beyond a right angle nothing is excluded. The facet
-   is not skipped. */
+   which the cosine is above -sin(turn) >= -turn; beyond a right angle nothing is excluded. The
+   facet is not skipped. */
 int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn);
 
 /* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:
