@@ -7,7 +7,7 @@
    3. lrcsi_view_project, lrcsi_sigma_classify (sigma_search.c): view coordinates, undecided facets;
    4. until an answer is accepted: lrcsi_attempts_next (sigma_attempt.c) chooses a method or a
       resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it, lrcsi_sigma_sum
-      (sigma_sum.c) sums over them. */
+      (sigma_sum.c) sums over them, lrcsi_attempts_end (sigma_attempt.c) ends the attempt. */
 #include "integrate/sigma.h"
 
 #include <math.h>
@@ -17,7 +17,6 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
-#include "visibility/proximity/proximity_hidden.h"
 #include "visibility/raster/preview.h"
 
 lrcs_run_options lrcs_run_options_default(void)
@@ -77,7 +76,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_masked_band_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LRCSI_SIGMA_SIZE_MAX;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
@@ -185,7 +184,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
             request->last == LRCSI_SIGMA_SUM) {
             lrcsi_sigma_sum(run, &attempt->meter);
         }
-        lrcsi_sigma_search_end(run, attempt);
+        lrcsi_attempts_end(run, &attempts);
     }
     lrcsi_sigma_release_decisions(run, &attempts);
     return status;

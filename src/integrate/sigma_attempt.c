@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Which attempts to find visible areas a run makes, in which order: by which method, at which
-   resolution of a raster, and within which limit. This file decides neither how areas are found
-   (sigma_search.c) nor whether their sum is accepted (sigma_sum.c). All constants and estimates
-   here affect only the time that a run takes, and which of several valid answers it gives. */
+   resolution of a raster, and within which limit; and what becomes of one that has ended. This file
+   decides neither how areas are found (sigma_search.c) nor whether their sum is accepted
+   (sigma_sum.c). All constants and estimates here affect only the time that a run takes, and which
+   of several valid answers it gives. */
 #include <math.h>
 
 #include "integrate/sigma_run.h"
@@ -25,6 +26,8 @@
 /* A size that is to meet the tolerance by its bound is chosen larger by this factor, because the
    next bound is known only approximately. A heuristic: it affects only the time. */
 #define BOUND_MARGIN 1.2
+
+#define NO_MEMORY_REASON "too little memory for clipping"
 
 /* The size of the next raster, a multiple of 64 pixels. With the size N the visibility bound falls
    as 1/N, and the estimated error as N^(-4/3) or faster on most models. These are choices that
@@ -86,7 +89,7 @@ static lrcsi_attempt attempt_raster(const lrcsi_sigma *run, uint32_t size, const
    1. The size of the next raster. If the options accept any answer, the coarsest does.
    2. Clipping is tried before the raster if it is likely to take little longer, because the
       estimate of the raster may not be accepted; after an abandoned attempt it is tried again only
-      with a larger limit. Any answer is accepted from a raster.
+      with a larger limit, and not at all if memory was short. Any answer is accepted from a raster.
    3. The raster; the first one is cheap. */
 static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
@@ -100,8 +103,10 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
         attempts->size = next_size(run);
     } else if (last->end == LRCSI_ATTEMPT_ABANDONED) {
         attempts->abandoned_ns = last->limit_ns;
+    } else if (last->end == LRCSI_ATTEMPT_NO_MEMORY) {
+        attempts->memory_short = 1;
     }
-    if (last->method != LRCS_METHOD_EXACT && !any) { /* 2 */
+    if (last->method != LRCS_METHOD_EXACT && !any && !attempts->memory_short) { /* 2 */
         double limit_ns = lrcsi_cost_draw(cost, attempts->size) *
                           (attempts->rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT);
         double undecided =
@@ -116,7 +121,8 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
         attempts->rasters == 0 ? lrcsi_cost_first(cost, attempts->size) : attempts->size;
     attempts->rasters++;
     return attempt_raster(run, size,
-                          any ? run->plan.reason
+                          any                      ? run->plan.reason
+                          : attempts->memory_short ? NO_MEMORY_REASON
                           : attempts->abandoned_ns > 0
                               ? "clipping was begun, and took longer than a raster"
                               : "a raster is estimated to cost less than clipping");
@@ -138,8 +144,8 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
     if (last.method == LRCS_METHOD_EXACT && last.end == LRCSI_ATTEMPT_FOUND) {
         return 0;
     }
-    if (last.end == LRCSI_ATTEMPT_NO_MEMORY) { /* 1 */
-        attempts->current = attempt_raster(run, plan->size, "too little memory for clipping");
+    if (last.end == LRCSI_ATTEMPT_NO_MEMORY && last.limit_ns == HUGE_VAL) { /* 1 */
+        attempts->current = attempt_raster(run, plan->size, NO_MEMORY_REASON);
         attempts->current.samples_only = 0;
         attempts->current.fallback = 1;
     } else if (last.method == LRCS_METHOD_AUTO && plan->method == LRCS_METHOD_EXACT) {
@@ -159,4 +165,18 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
         attempts->current = attempt_raster(run, drawn ? next_size(run) : plan->size, plan->reason);
     }
     return 1;
+}
+
+void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts)
+{
+    lrcsi_attempt *attempt = &attempts->current;
+    run->meter.taken = attempt->meter.taken;
+    if (attempt->limit_ns == HUGE_VAL) {
+        run->meter.spent = attempt->meter.spent;
+    } else if (attempt->end == LRCSI_ATTEMPT_FOUND && attempt->meter.spent) {
+        attempt->end = LRCSI_ATTEMPT_ABANDONED;
+    }
+    if (attempt->end != LRCSI_ATTEMPT_FOUND) {
+        run->work->used = attempt->mark;
+    }
 }

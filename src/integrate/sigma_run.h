@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a run of a pose is asked for, its state, and the functions by which its four files share
-   the work: sigma.c runs the stages, sigma_attempt.c chooses how visible areas are searched for,
-   sigma_search.c finds them, sigma_sum.c sums over them. */
+   the work: sigma.c runs the stages, sigma_attempt.c chooses how visible areas are searched for and
+   ends each attempt, sigma_search.c finds them, sigma_sum.c sums over them. */
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
@@ -41,14 +41,15 @@ typedef struct lrcsi_sigma {
     lrcsi_meter meter;        /* limit on the steps of the visibility computation */
     lrcsi_clear_shapes clear; /* those evaluated by their closed forms: method auto only */
     lrcsi_plan plan;          /* is not changed once it is made */
-    int classified;           /* the classification is made, and the band if the plan needs it */
+    int classified;           /* the classification is made, and the bands if the plan needs them */
     lrcsi_classification classification;
-    lrcsi_proximity_band band;
-    lrcsi_visible_area *visible;           /* [facet_count]; NULL: the plan implies all areas */
-    const unsigned char *answer;           /* as in lrcsi_areas */
-    lrcsi_moment *moment_memory;           /* [facet_count]; NULL: moments are not wanted */
-    const lrcsi_moment *moment;            /* as in lrcsi_areas */
-    unsigned char *corrected;              /* as in lrcsi_total_details */
+    lrcsi_proximity_band band;   /* is not changed once it is made */
+    lrcsi_masked_band masked;    /* the band, less what an attempt has found to be hidden */
+    lrcsi_visible_area *visible; /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer; /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;  /* as in lrcsi_areas */
+    unsigned char *corrected;    /* as in lrcsi_total_details */
     lrcsi_round_terms *round_terms_memory; /* [facet_count]; NULL: pieces are not wanted */
     const lrcsi_round_terms *round_terms;  /* as in lrcsi_areas */
     lrcsi_curve_terms *curve_terms;        /* [facet_count]; NULL: all normals are flat */
@@ -74,7 +75,7 @@ typedef struct lrcsi_attempt {
     int fallback;       /* a raster in place of clipping, for which memory was short */
     lrcsi_meter meter;  /* the run's, with the limit of this attempt */
     int end;            /* lrcsi_attempt_end */
-    size_t mark;        /* of the work area, before what an abandoned attempt leaves in it */
+    size_t mark; /* of the work area, before what an attempt leaves in it that found nothing */
 } lrcsi_attempt;
 
 /* The attempts of a run so far. Before the first: zeros, and the cost. */
@@ -85,6 +86,7 @@ typedef struct lrcsi_attempts {
     uint32_t size;       /* of the next raster */
     uint32_t rasters;    /* chosen so far */
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
+    int memory_short;    /* memory was short for limited clipping, which is not tried again */
     /* What rasters share whose areas are proved: */
     int decided; /* decisions are made, and are the last item in the work area */
     lrcsi_decisions decisions;
@@ -102,6 +104,11 @@ typedef struct lrcsi_attempts {
    improve it. */
 int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts);
 
+/* Ends attempts->current, after the sum over its areas if it found any: its steps count as the
+   run's, it is abandoned if it has spent those of its limit, and the work area is released if it
+   has not found areas. */
+void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
+
 /* --- sigma_search.c --------------------------------------------------------------------------- */
 
 /* Finds which facets are undecided, and the proximity band if the plan needs it; once per pose.
@@ -112,10 +119,6 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
    were found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended;
    others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
-
-/* Ends an attempt after the sum over its areas: its steps count as the run's, and it is abandoned
-   if it has spent those of its limit. */
-void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt);
 
 /* Releases the memory that rasters share: before other memory is taken that is to stay. */
 void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts);

@@ -18,6 +18,8 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
+        status = status == LRCS_OK ? lrcsi_masked_band_make(&run->band, run->work, &run->masked)
+                                   : status;
     }
     run->classified = status == LRCS_OK;
     return status;
@@ -51,23 +53,37 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
     return status;
 }
 
-/* Clips within the limit of an attempt. What an abandoned or refused attempt leaves in the work
-   area is released by lrcsi_sigma_search_end, except a classification that is complete. */
-static void find_by_limited_clipping(lrcsi_sigma *run, const lrcsi_cost *cost,
-                                     lrcsi_attempt *attempt)
+/* Clips, within the limit of the attempt if it has one: classifies, unless that is done, and clips
+   undecided facets. Steps may run out in either. What an attempt leaves in the work area that has
+   not found areas is released by lrcsi_attempts_end, except a classification that is complete.
+   Any failure but for lack of memory is one of the run. */
+static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
+    const int limited = attempt->limit_ns < HUGE_VAL;
     const int classified = run->classified;
-    attempt->end = LRCSI_ATTEMPT_ABANDONED;
-    if (lrcsi_sigma_classify(run, &attempt->meter) != LRCS_OK || attempt->meter.spent) {
-        run->classified = classified;
-        return;
-    }
     attempt->mark = run->work->used;
-    if (lrcsi_cost_clip(cost, run->classification.undecided_count) > attempt->limit_ns) {
-        attempt->end = LRCSI_ATTEMPT_REFUSED;
-    } else if (find_by_clipping(run, &attempt->meter) == LRCS_OK && !attempt->meter.spent) {
-        attempt->end = LRCSI_ATTEMPT_FOUND;
+    int status = lrcsi_sigma_classify(run, &attempt->meter);
+    if (status == LRCS_OK && limited && attempt->meter.spent) {
+        run->classified = classified; /* what is not complete is made anew */
+        attempt->end = LRCSI_ATTEMPT_ABANDONED;
+        return LRCS_OK;
     }
+    if (status == LRCS_OK) {
+        attempt->mark = run->work->used;
+        if (limited &&
+            lrcsi_cost_clip(cost, run->classification.undecided_count) > attempt->limit_ns) {
+            attempt->end = LRCSI_ATTEMPT_REFUSED;
+            return LRCS_OK;
+        }
+        status = find_by_clipping(run, &attempt->meter);
+    }
+    if (status == LRCS_OK && limited && attempt->meter.spent) {
+        attempt->end = LRCSI_ATTEMPT_ABANDONED;
+    } else if (status == LRCS_E_MEMORY) {
+        attempt->end = LRCSI_ATTEMPT_NO_MEMORY;
+        return LRCS_OK;
+    }
+    return status;
 }
 
 /* Draws one raster of the attempt's size, or of half of it, a quarter and so on until it fits into
@@ -122,30 +138,5 @@ int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
         return find_by_drawing(run, attempts);
     }
     lrcsi_sigma_release_decisions(run, attempts);
-    attempt->mark = run->work->used;
-    if (attempt->limit_ns < HUGE_VAL) {
-        find_by_limited_clipping(run, &attempts->cost, attempt);
-        return LRCS_OK;
-    }
-    int status = lrcsi_sigma_classify(run, &attempt->meter);
-    status = status == LRCS_OK ? find_by_clipping(run, &attempt->meter) : status;
-    if (status == LRCS_E_MEMORY) {
-        attempt->end = LRCSI_ATTEMPT_NO_MEMORY;
-        return LRCS_OK;
-    }
-    return status;
-}
-
-void lrcsi_sigma_search_end(lrcsi_sigma *run, lrcsi_attempt *attempt)
-{
-    const int limited = attempt->limit_ns < HUGE_VAL;
-    run->meter.taken = attempt->meter.taken;
-    if (!limited) {
-        run->meter.spent = attempt->meter.spent;
-    } else if (attempt->meter.spent) {
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
-    }
-    if (attempt->end == LRCSI_ATTEMPT_ABANDONED || attempt->end == LRCSI_ATTEMPT_REFUSED) {
-        run->work->used = attempt->mark;
-    }
+    return search_by_clipping(run, &attempts->cost, attempt);
 }

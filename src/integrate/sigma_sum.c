@@ -7,7 +7,6 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "integrate/sigma_run.h"
-#include "visibility/proximity/proximity_hidden.h"
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
 
@@ -49,9 +48,9 @@ lrcsi_curve_options lrcsi_sigma_curve_options(const lrcsi_sigma *run, lrcsi_mete
                                  options->progress, run->stack,         run->request.derivatives};
 }
 
-static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
+static const lrcsi_masked_band *run_band(const lrcsi_sigma *run)
 {
-    return run->classified && run->plan.proximity_band ? &run->band : NULL;
+    return run->classified && run->plan.proximity_band ? &run->masked : NULL;
 }
 
 lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
@@ -127,7 +126,7 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    1. replaces areas by what is proved about them;
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
-   3. finds the hidden regions of the proximity band, and integrates over the visible pieces of
+   3. masks what is hidden of the proximity band, and integrates over the visible pieces of
       round walls;
    4. sums. Steps are taken from the given meter, which is that of the run or of an attempt. */
 void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
@@ -147,10 +146,10 @@ void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
     }
     run->round_terms = NULL;
     if (run_band(run)) {
-        lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
+        lrcsi_masked_band_find(&run->masked, run->visible, meter, run->work);
     }
     if (run_band(run) && run->moment && !run->request.derivatives) {
-        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->band, run->visible, meter,
+        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, run->visible, meter,
                                 run->work, run->round_terms_memory);
         run->round_terms = run->round_terms_memory;
     }

@@ -139,6 +139,13 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
         view, incidence_dot_of(view, facet, product, normal_err(n) * view->length));
 }
 
+int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn)
+{
+    const lrcsi_normal *n = &view->prepared->normal[facet];
+    double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
+    return cosine > -(turn + LRCSI_VIEW_COS_ERR);
+}
+
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];

@@ -119,6 +119,17 @@ lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 /* Only its projected area: the same bits, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
+/* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
+   u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
+ */
+#define LRCSI_VIEW_COS_ERR 1e-9
+
+/* May a true surface whose normals differ from a facet's by at most `turn`, rad, face the laser? A
+   normal at less than pi / 2 from the direction takes the facet's to less than pi / 2 + turn, of
+   which the cosine is above -sin(turn) >= -turn; beyond a right angle nothing is excluded. The
+   facet is not skipped. */
+int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn);
+
 /* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:
    incidence[count]. */
 #define LRCSI_INCIDENCES 32u

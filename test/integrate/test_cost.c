@@ -199,6 +199,38 @@ static void clipping_goes_first_where_few_facets_are_undecided(void **state)
     assert_string_equal(r.method_reason, "clipping is estimated to cost less than a raster");
 }
 
+/* The same with less memory, until not even a raster fits: where clipping does not, a raster
+   answers, and the reason is not that clipping took too long. */
+static void clipping_without_memory_gives_way_to_a_raster_for_that_reason(void **state)
+{
+    (void)state;
+    lrcs_pose pose;
+    lrcs_result r;
+    unsigned rasters = 0;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 60);
+    scene_sphere(&scene, (const double[3]){0.5, 0.2, 3}, 0.4, 20);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.2, 1}, &pose), LRCS_OK);
+    lrcs_run_options options = lrcs_run_options_default();
+    options.accept = LRCS_ACCEPT_ESTIMATE;
+    options.tolerance = 0.01; /* which a coarse raster's estimate meets */
+    for (size_t size = work.size - work.used; size > 0; size -= size / 16 + 1) {
+        lrcs_work less = lrcs_work_make(work.bytes + work.used, size);
+        if (lrcs_sigma_run(prepared, &pose, &options, &less, &r, NULL, NULL) != LRCS_OK) {
+            break;
+        }
+        if (r.method == LRCS_METHOD_ZBUFFER) {
+            assert_string_equal(r.method_reason, "too little memory for clipping");
+            rasters++;
+        } else {
+            assert_int_equal(r.method, LRCS_METHOD_EXACT);
+            assert_int_equal(rasters, 0);
+        }
+    }
+    assert_true(rasters > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +243,7 @@ int main(void)
         cmocka_unit_test(borders_in_every_pixel_take_a_coarse_raster),
         cmocka_unit_test(clipping_that_takes_too_long_gives_way_to_a_raster),
         cmocka_unit_test(clipping_goes_first_where_few_facets_are_undecided),
+        cmocka_unit_test(clipping_without_memory_gives_way_to_a_raster_for_that_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -222,6 +222,25 @@ static void abandoned_clipping_is_tried_again_only_for_four_times_as_long(void *
     }
 }
 
+/* A raster of samples alone, of the size that was planned; clipping within a limit is not tried
+   again, however large that is. */
+static void where_memory_is_short_limited_clipping_gives_way_to_rasters(void **state)
+{
+    (void)state;
+    begin_preview(LRCS_ACCEPT_ESTIMATE, 1.4);
+    uint32_t size = lrcsi_cost_size(&attempts.cost, 0.01, LRCSI_SIGMA_SIZE_MAX);
+    check_clipping(1.5 * lrcsi_cost_draw(&attempts.cost, size));
+    attempts.current.end = LRCSI_ATTEMPT_NO_MEMORY;
+    check_raster(lrcsi_cost_first(&attempts.cost, size));
+    for (int rasters = 1; attempts.current.size < LRCSI_SIGMA_SIZE_MAX; rasters++) {
+        assert_true(rasters < 100 && attempts.current.samples_only && !attempts.current.fallback);
+        assert_string_equal(attempts.current.reason, "too little memory for clipping");
+        end_with(0.011);
+        assert_int_equal(lrcsi_attempts_next(&run, &attempts), 1);
+        assert_int_equal(attempts.current.method, LRCS_METHOD_ZBUFFER);
+    }
+}
+
 static void any_answer_is_the_coarsest_raster(void **state)
 {
     (void)state;
@@ -257,6 +276,7 @@ int main(void)
         cmocka_unit_test(clipping_comes_first_if_it_costs_little_more_than_a_raster),
         cmocka_unit_test(limited_clipping_takes_no_more_steps_than_the_run_has_left),
         cmocka_unit_test(abandoned_clipping_is_tried_again_only_for_four_times_as_long),
+        cmocka_unit_test(where_memory_is_short_limited_clipping_gives_way_to_rasters),
         cmocka_unit_test(any_answer_is_the_coarsest_raster),
         cmocka_unit_test(a_preview_whose_depths_are_undecided_leads_to_clipping),
     };

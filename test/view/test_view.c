@@ -318,6 +318,26 @@ static void dot_products_stay_within_their_error(void **state)
     }
 }
 
+/* A surface whose normals turn by at most so much from the facet's may face a laser that far behind
+   the facet's plane, and no farther. */
+static void a_turned_surface_may_face_the_laser_from_behind_its_facet(void **state)
+{
+    (void)state;
+    static const double turn[] = {0, 1e-6, 0.1, 0.5};
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                   (const double[3]){0, 1, 0});
+    for (int i = 0; i < 4; i++) {
+        const double sine[] = {-1, -turn[i] - 1e-8, -0.99 * turn[i] + 1e-10, 1};
+        for (int k = 0; k < 4; k++) {
+            const double d[3] = {0.6 * sqrt(1 - sine[k] * sine[k]),
+                                 0.8 * sqrt(1 - sine[k] * sine[k]), sine[k]};
+            lrcsi_view view = view_along(d);
+            assert_int_equal(lrcsi_view_may_face(&view, 0, turn[i]), k >= 2);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -329,6 +349,7 @@ int main(void)
         cmocka_unit_test(nearest_to_edge_on_tan2_is_a_lower_bound),
         cmocka_unit_test(normal_incidence_is_exact),
         cmocka_unit_test(dot_products_stay_within_their_error),
+        cmocka_unit_test(a_turned_surface_may_face_the_laser_from_behind_its_facet),
         cmocka_unit_test(window_is_the_square_around_the_projection),
         cmocka_unit_test(points_lie_within_their_error),
         cmocka_unit_test(a_far_vertex_leaves_the_others_their_errors),

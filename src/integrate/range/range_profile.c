@@ -68,7 +68,6 @@
 #include "integrate/wall/tessellation.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
-#include "visibility/proximity/proximity_hidden.h"
 
 /* Relative error of a range in double-double, for each unit of |x| + |y| + |z|: the components of
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
@@ -87,8 +86,9 @@ typedef struct profile_run {
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
     lrcsi_curve_context curves;
     lrcsi_visible_area *visible; /* of every facet; NULL if no facet replaces a curved shape */
-    lrcsi_proximity_band band_memory;
-    lrcsi_proximity_band *band; /* NULL: none was made */
+    lrcsi_proximity_band whole_band;
+    lrcsi_masked_band band_memory;
+    lrcsi_masked_band *band; /* NULL: none was made */
     lrcsi_patches patches;
     double tessellation; /* (5) of all bins together, scaled */
 } profile_run;
@@ -387,7 +387,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-        need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_masked_band_need(prepared));
     }
     return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
 }
@@ -430,7 +430,10 @@ static int curved_make(profile_run *run, lrcsi_classification *classification, l
         run->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *run->visible);
         int status = run->visible ? LRCS_OK : LRCS_E_MEMORY;
         if (status == LRCS_OK && run->plan.proximity_band) {
-            status = lrcsi_proximity_band_make(classification, NULL, work, &run->band_memory);
+            status = lrcsi_proximity_band_make(classification, NULL, work, &run->whole_band);
+            status = status == LRCS_OK
+                         ? lrcsi_masked_band_make(&run->whole_band, work, &run->band_memory)
+                         : status;
             run->band = &run->band_memory;
         }
         if (status != LRCS_OK) {
@@ -482,7 +485,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
         return status;
     }
     if (run->band) {
-        lrcsi_proximity_find_hidden(run->band, run->visible, NULL, work);
+        lrcsi_masked_band_find(run->band, run->visible, NULL, work);
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {

@@ -193,7 +193,7 @@ static void total_finish(lrcsi_total_run *run)
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curve_terms *curve_terms,
-                             const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
+                             const lrcsi_masked_band *band, const lrcsi_clear_shapes *clear,
                              lrcsi_total_details *details)
 {
     const lrcs_prepared *p = view->prepared;

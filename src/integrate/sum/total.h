@@ -13,7 +13,7 @@
    materials in their order, the facets of each in theirs; then clear shapes in theirs. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curve_terms *curve_terms,
-                             const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
+                             const lrcsi_masked_band *band, const lrcsi_clear_shapes *clear,
                              lrcsi_total_details *details);
 
 #endif

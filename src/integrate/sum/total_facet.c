@@ -138,7 +138,7 @@ void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error, int own)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
-    lrcsi_part_set set = run->band ? run->band->parts[facet] : 0;
+    lrcsi_part_set set = run->band ? run->band->whole->parts[facet] : 0;
     double reach = 0;
     if (own) {
         set |= lrcsi_part_set_of(scene->facet_part[facet]);
@@ -207,7 +207,9 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
             add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below), 1);
         }
     } else if (run->band) {
-        run->sums.above += run->band->gain[facet] * run->curve_terms[facet].upper_bound;
-        run->sums.below += run->band->loss[facet] * run->curve_terms[facet].upper_bound;
+        run->sums.above +=
+            lrcsi_masked_gain(run->band, facet) * run->curve_terms[facet].upper_bound;
+        run->sums.below +=
+            lrcsi_masked_loss(run->band, facet) * run->curve_terms[facet].upper_bound;
     }
 }

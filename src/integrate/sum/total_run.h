@@ -10,7 +10,7 @@
 #include "integrate/sum/areas.h"
 #include "integrate/wall/patch.h"
 #include "integrate/wall/shapes.h"
-#include "visibility/proximity/proximity_band.h"
+#include "visibility/proximity/masked_band.h"
 
 /* All in square metres. */
 typedef struct lrcsi_total {
@@ -51,7 +51,7 @@ typedef struct lrcsi_total_run {
     const lrcsi_plan *plan;
     const lrcsi_areas *areas;
     const lrcsi_curve_terms *curve_terms; /* NULL: all normals are flat */
-    const lrcsi_proximity_band *band;     /* NULL: none was made */
+    const lrcsi_masked_band *band;        /* NULL: none was made */
     const lrcsi_clear_shapes *clear;      /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */

@@ -21,16 +21,16 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
 }
 
 int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
-                         const lrcsi_proximity_band *band)
+                         const lrcsi_masked_band *band)
 {
-    if (band && lrcsi_proximity_is_hidden(band, facet)) {
+    if (band && lrcsi_masked_band_is_hidden(band, facet)) {
         return LRCSI_PATCH_HIDDEN;
     }
     if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
         return LRCSI_PATCH_AWAY;
     }
-    if (!band || (band->mismatch[facet] == 0 && !band->classification->undecided[facet] &&
-                  visible[facet].low > 0)) {
+    if (!band || (lrcsi_masked_mismatch(band, facet) == 0 &&
+                  !band->whole->classification->undecided[facet] && visible[facet].low > 0)) {
         return LRCSI_PATCH_VISIBLE;
     }
     return visible[facet].high > HIDDEN_FRACTION * lrcsi_view_projected(view, facet)
@@ -39,7 +39,7 @@ int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
 }
 
 int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
-                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band)
+                              const lrcsi_visible_area *visible, const lrcsi_masked_band *band)
 {
     uint32_t partner = lrcsi_patch_partner(view->prepared, facet);
     return view->prepared->skip[partner] ? LRCSI_PATCH_HIDDEN
@@ -48,29 +48,28 @@ int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
 
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible_area *visible,
-                                               const lrcsi_proximity_band *band)
+                                               const lrcsi_masked_band *band)
 {
     double error = incidence->error + 8 * LRCSI_U;
     lrcsi_patch_fractions f = {0, 0, 0, 1};
     if (!band) {
         return f;
     }
-    if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
+    if (band->whole->classification->undecided[facet] || !(visible[facet].low > 0)) {
         f.hidden = 1 + error - visible[facet].low / incidence->projected;
     }
     f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
     double visible_most = visible[facet].high / incidence->projected * (1 + 2 * error);
-    f.gain = fmin(band->gain[facet], f.hidden);
-    f.loss = fmin(band->loss[facet], visible_most);
+    f.gain = fmin(lrcsi_masked_gain(band, facet), f.hidden);
+    f.loss = fmin(lrcsi_masked_loss(band, facet), visible_most);
     f.visible = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
     return f;
 }
 
 double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
-                                   const lrcsi_visible_area *visible,
-                                   const lrcsi_proximity_band *band)
+                                   const lrcsi_visible_area *visible, const lrcsi_masked_band *band)
 {
-    return !band || lrcsi_proximity_is_hidden(band, facet) || !(visible[facet].high > 0)
+    return !band || lrcsi_masked_band_is_hidden(band, facet) || !(visible[facet].high > 0)
                ? 0
                : fmin(1, visible[facet].high / incidence->projected * (1 + 2 * incidence->error));
 }

@@ -8,7 +8,7 @@
 #define LRCSI_PATCH_VISIBILITY_H
 
 #include "integrate/wall/patch.h"
-#include "visibility/proximity/proximity_band.h"
+#include "visibility/proximity/masked_band.h"
 #include "visibility/visible_area.h"
 
 enum lrcsi_patch_state {
@@ -21,7 +21,7 @@ enum lrcsi_patch_state {
 /* Upper bounds of fractions of a facet: */
 typedef struct lrcsi_patch_fractions {
     double hidden;     /* hidden, or not known to be visible, by facets */
-    double gain, loss; /* as in lrcsi_proximity_band; only what is hidden may be gained, and only
+    double gain, loss; /* as in lrcsi_masked_band; only what is hidden may be gained, and only
                           what is visible lost */
     double visible;    /* visible on the true surface */
 } lrcsi_patch_fractions;
@@ -29,9 +29,9 @@ typedef struct lrcsi_patch_fractions {
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
    as hidden if it is skipped. */
 int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
-                         const lrcsi_proximity_band *band);
+                         const lrcsi_masked_band *band);
 int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
-                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band);
+                              const lrcsi_visible_area *visible, const lrcsi_masked_band *band);
 
 /* Is something of a patch in this state visible? */
 static inline int lrcsi_patch_is_visible(int state)
@@ -42,11 +42,11 @@ static inline int lrcsi_patch_is_visible(int state)
 /* The fractions of a facet of which a side that reflects faces the laser. */
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible_area *visible,
-                                               const lrcsi_proximity_band *band);
+                                               const lrcsi_masked_band *band);
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
 double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
                                    const lrcsi_visible_area *visible,
-                                   const lrcsi_proximity_band *band);
+                                   const lrcsi_masked_band *band);
 
 #endif

@@ -39,7 +39,7 @@
 typedef struct pieces_job {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
-    const lrcsi_proximity_band *band;
+    const lrcsi_masked_band *band;
     const lrcsi_visible_area *visible;
     lrcsi_round_wall wall; /* of the current part */
     double target;         /* the relative remainder that rules should have */
@@ -271,8 +271,9 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     }
     area_err += lrcsi_occlude_piece_err(o);
     lrcsi_visible_area area = lrcsi_occlude_close(o);
-    double gain = lrcsi_min(job->band->gain_aligned[facet] * projected, projected - area.low);
-    double loss = lrcsi_min(job->band->loss_aligned[facet] * projected, area.high);
+    double gain =
+        lrcsi_min(job->band->whole->gain_aligned[facet] * projected, projected - area.low);
+    double loss = lrcsi_min(job->band->whole->loss_aligned[facet] * projected, area.high);
     *terms = (lrcsi_round_terms){.known = 1,
                                  .glint = sum.glint,
                                  .diffuse = sum.diffuse,
@@ -289,18 +290,19 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
 /* Is it uncertain what is visible of a facet or of its patch? */
 static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
 {
-    const lrcsi_proximity_band *band = job->band;
+    const lrcsi_masked_band *band = job->band;
     int state = lrcsi_patch_state_of(job->view, facet, job->visible, band);
     return state == LRCSI_PATCH_PARTIAL ||
-           (state == LRCSI_PATCH_HIDDEN && band->mismatch[facet] > 0 &&
-            !lrcsi_proximity_is_hidden(band, facet));
+           (state == LRCSI_PATCH_HIDDEN && lrcsi_masked_mismatch(band, facet) > 0 &&
+            !lrcsi_masked_band_is_hidden(band, facet));
 }
 
 /* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of
    facets of such walls that show the laser their outside, or an inside that reflects. */
 static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 {
-    return job->band->gain_aligned[facet] >= 0 && lrcsi_patch_exists(job->view->prepared, facet);
+    return job->band->whole->gain_aligned[facet] >= 0 &&
+           lrcsi_patch_exists(job->view->prepared, facet);
 }
 
 /* May a sector be used, apart from what the integrals need? */
@@ -331,7 +333,7 @@ static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrc
     const double from =
         lrcsi_min(0.25, p->proximity.reach[job->wall.part] / lrcsi_length_longest_side(a, b, c));
     double point[3];
-    if (!((job->band->free_sides[f] >> k) & 1)) {
+    if (!((job->band->whole->free_sides[f] >> k) & 1)) {
         return -1;
     }
     for (int i = 0; i < 3; i++) {
@@ -410,7 +412,7 @@ static void add_rims(pieces_job *job, lrcs_work *work, lrcsi_round_terms *terms)
             continue;
         }
         job_take_wall(job, first);
-        int known = lrcsi_round_rim_add(&job->wall, job->band, job->visible, work, terms);
+        int known = lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms);
         for (uint32_t f = first; f < to && !known; f++) {
             terms[f].known &= job->view->facing[f] > 0;
         }
@@ -421,7 +423,7 @@ static void add_rims(pieces_job *job, lrcs_work *work, lrcsi_round_terms *terms)
    2. The rims of open parts above their insides.
    3. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
+                             const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                              lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = classification->view;

@@ -29,13 +29,13 @@
 #include "integrate/plan.h"
 #include "integrate/wall/round_terms.h"
 #include "visibility/occlude.h"
-#include "visibility/proximity/proximity_band.h"
+#include "visibility/proximity/masked_band.h"
 
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
-   whose hidden regions are marked. Returned: terms[facet_count]. Without enough memory, or if steps
+   whose hidden facets are masked. Returned: terms[facet_count]. Without enough memory, or if steps
    run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
+                             const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                              lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms);
 
 #endif

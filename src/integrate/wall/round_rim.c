@@ -8,12 +8,11 @@
 #include "base/length.h"
 #include "base/outward.h"
 #include "base/range.h"
-#include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/shape/tessellate.h"
 #include "scene/proximity.h"
 
-/* More than the rounding error of angles and of a facet's cosine. */
+/* More than the rounding error of angles. */
 #define ANGLE_ERR 1e-9
 
 /* A side of the rim, and what is under it of the inside. */
@@ -124,12 +123,10 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
                            lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = job->wall->view;
-    const lrcsi_normal *n = &view->prepared->normal[at->facet];
-    const double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
     const int away = view->facing[at->facet] <= 0;
     lrcsi_round_margin margin;
     if (side->facet == LRCS_NONE ||
-        (away && cosine < -(job->part->bounds.patch.turn + ANGLE_ERR))) {
+        !lrcsi_view_may_face(view, at->facet, job->part->bounds.patch.turn)) {
         return;
     }
     lrcsi_round_terms *to = &terms[side->facet];

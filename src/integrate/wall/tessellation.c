@@ -110,7 +110,7 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
     const lrcs_prepared *p = in->view->prepared;
     if (!(bounds->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
         !lrcsi_prepared_material(p, facet)->two_sided ||
-        (in->band && lrcsi_proximity_is_hidden(in->band, facet))) {
+        (in->band && lrcsi_masked_band_is_hidden(in->band, facet))) {
         return 0;
     }
     double cosine = -fabs(incidence->cos_theta);
@@ -145,7 +145,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     const lrcs_patch_bounds bounds = patch_bounds_of(p, facet);
     int is_curved = bounds.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
-    int is_certain = !in->band || in->band->mismatch[facet] == 0;
+    int is_certain = !in->band || lrcsi_masked_mismatch(in->band, facet) == 0;
     double area = 0.5 * p->normal[facet].length;
     double seen = is_curved && state == LRCSI_PATCH_HIDDEN
                       ? lrcsi_patch_hidden_fraction(incidence, facet, in->visible, in->band)
@@ -223,7 +223,7 @@ lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input 
     lrcsi_interval_error e = {.whole = fmax(error.above, error.below),
                               .visible = lrcsi_patch_is_visible(
                                   lrcsi_patch_state_of(in->view, facet, in->visible, in->band)),
-                              .mismatch = in->band ? in->band->mismatch[facet] : 0,
+                              .mismatch = in->band ? lrcsi_masked_mismatch(in->band, facet) : 0,
                               .partner = facet};
     uint32_t partner = lrcsi_patch_partner(p, facet);
     if (is_curved && partner < part->first_facet + part->facet_count && !p->skip[partner]) {

@@ -107,13 +107,14 @@ static double bound_by_point(const lrcsi_deviation *deviation, double stretch, d
 
 /* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
    has no rows. Each facet of a cone has a sector of its own. */
-static double sector_rows(const lrcs_prepared *p, uint32_t facet, const lrcsi_proximity_band *band)
+static double sector_rows(const lrcs_prepared *p, uint32_t facet, const lrcsi_masked_band *band)
 {
     if (!lrcsi_proximity_has_rows(p, facet)) {
         return 1;
     }
     int alone = lrcsi_patch_part(p, facet)->kind == LRCS_SHAPE_CONE;
-    double rows = band->rows[facet] + (alone ? 0 : band->rows[lrcsi_patch_partner(p, facet)]);
+    double rows = lrcsi_masked_rows(band, facet) +
+                  (alone ? 0 : lrcsi_masked_rows(band, lrcsi_patch_partner(p, facet)));
     return fmin(1, 2 * rows);
 }
 

@@ -14,9 +14,9 @@ typedef struct lrcsi_tessellation_input {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     const lrcsi_visible_area *visible; /* the visible areas of all facets */
-    const lrcsi_moment *moment;       /* of the visible regions of all undecided facets; NULL: there
+    const lrcsi_moment *moment;    /* of the visible regions of all undecided facets; NULL: there
                                          are to be no corrections */
-    const lrcsi_proximity_band *band; /* NULL: every front is entirely visible, or the bounds of the
+    const lrcsi_masked_band *band; /* NULL: every front is entirely visible, or the bounds of the
                                          visible areas include what could be hidden */
 } lrcsi_tessellation_input;
 

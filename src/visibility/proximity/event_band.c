@@ -77,12 +77,11 @@
 #include <math.h>
 
 #include "base/range.h"
-#include "base/vec3.h"
 #include "base/work.h"
 #include "visibility/index/event.h"
 
 /* The projected areas of facets with a larger cosine than this are accurate to
-   LRCSI_EVENT_BAND_COS_ERR, relative: 30 u / 1e-4 is below 1e-10. */
+   LRCSI_VIEW_COS_ERR, relative: 30 u / 1e-4 is below 1e-10. */
 #define COS_MIN 1e-4
 
 static uint32_t facet_part(const lrcsi_event_bands *bands, uint32_t facet)
@@ -102,10 +101,8 @@ static int rim_may_face(const lrcsi_event_bands *bands, uint32_t event)
         return 1;
     }
     const lrcsi_edge_facets on = lrcsi_edge_facets_of(view, edge, part);
-    const lrcsi_normal *n = &p->normal[on.facet[0]];
-    double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
     return on.count == 1 &&
-           cosine > -(p->scene->part[part].bounds.patch.turn + LRCSI_EVENT_BAND_COS_ERR);
+           lrcsi_view_may_face(view, on.facet[0], p->scene->part[part].bounds.patch.turn);
 }
 
 /* The distance in projection within which an event edge may change what is visible of a facet,
@@ -185,8 +182,8 @@ static void outline_fractions(lrcsi_event_bands *bands, uint32_t facet, uint32_t
                      ? (lrcsi_outline_areas){0, 0, 0}
                      : lrcsi_outline_areas_make(outline, a, b, bands->events.side[event]);
     }
-    *gain = (areas->gain + areas->width * delta) / projected * (1 + LRCSI_EVENT_BAND_COS_ERR);
-    *loss = (areas->loss + areas->width * delta) / projected * (1 + LRCSI_EVENT_BAND_COS_ERR);
+    *gain = (areas->gain + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
+    *loss = (areas->loss + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
 }
 
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the

@@ -12,11 +12,6 @@
 #include "visibility/proximity/part_order.h"
 #include "visibility/proximity/proximity_events.h"
 
-/* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
-   u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
- */
-#define LRCSI_EVENT_BAND_COS_ERR 1e-9
-
 /* What the bands of a view are made from. */
 typedef struct lrcsi_event_bands {
     const lrcsi_view *view;

@@ -237,7 +237,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-            p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_EVENT_BAND_COS_ERR) {
+            p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
@@ -280,7 +280,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_blocks(6, facets, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(3, facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     return lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(uint32_t)));
 }
@@ -367,12 +367,10 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.free_sides = lrcsi_work_take_zero(work, facets, 1);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
-    m.region_hidden = lrcsi_work_take_zero(work, facets, 1);
-    m.facet_hidden = lrcsi_work_take_zero(work, facets, 1);
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.free_sides && m.parts && m.region && m.region_hidden && m.facet_hidden
+                         m.free_sides && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

@@ -24,21 +24,13 @@ typedef struct lrcsi_proximity_band {
                                   side from corner k to k + 1 (event_band.c, 5) */
     lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
     uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
-    /* Filled by lrcsi_proximity_find_hidden (proximity_hidden.h): */
-    unsigned char *region_hidden; /* region: 1 if other parts hide all of it, in truth too */
-    unsigned char *facet_hidden;  /* facet that meets bands: the same of it */
 } lrcsi_proximity_band;
-
-/* Is it known that other parts hide all of a facet, in truth too? */
-static inline int lrcsi_proximity_is_hidden(const lrcsi_proximity_band *band, uint32_t facet)
-{
-    return band->region_hidden[band->region[facet]] || band->facet_hidden[facet];
-}
 
 /* Upper bound of bytes; 0 if prepared->proximity.reach is NULL. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
-/* For a scene with prepared->proximity.reach. Nothing is marked hidden yet. Facets that neither
+/* For a scene with prepared->proximity.reach. The band is not changed afterwards; what of it is
+   known to be hidden is masked in visibility/proximity/masked_band.h. Facets that neither
    reflect nor belong to a curved part are left out: mismatch 0. Status: LRCS_OK; LRCS_E_MEMORY;
    LRCS_E_LIMIT. The fractions stay in the work area; scratch memory is released. */
 int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter *meter,

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* A proximity band, less the facets of which it is known that other parts hide them entirely, in
+   truth too: their visibility cannot differ, so that they have no fractions. The band itself is not
+   changed. */
+#ifndef LRCSI_MASKED_BAND_H
+#define LRCSI_MASKED_BAND_H
+
+#include "visibility/proximity/proximity_band.h"
+#include "visibility/visible_area.h"
+
+typedef struct lrcsi_masked_band {
+    const lrcsi_proximity_band *whole; /* the band */
+    unsigned char *region_hidden;      /* region: 1 if other parts hide all of it, in truth too */
+    unsigned char *facet_hidden;       /* facet that meets bands: the same of it */
+} lrcsi_masked_band;
+
+/* Bytes for lrcsi_masked_band_make and lrcsi_masked_band_find together; 0 if
+   prepared->proximity.reach is NULL. */
+size_t lrcsi_masked_band_need(const lrcs_prepared *prepared);
+
+/* Masks nothing yet. It stays in the work area, and refers to the band. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
+int lrcsi_masked_band_make(const lrcsi_proximity_band *whole, lrcs_work *work,
+                           lrcsi_masked_band *band);
+
+/* Given visible areas, finds what is hidden in truth too, and masks it: regions, and facets that
+   meet bands. Without memory, or when the meter is spent, it finds less. It may be called again
+   with other areas of the same view: regions are then found anew; facets stay masked, because what
+   is hidden does not depend on how areas are found. Scratch memory is released. */
+void lrcsi_masked_band_find(lrcsi_masked_band *band, const lrcsi_visible_area *visible,
+                            lrcsi_meter *meter, lrcs_work *work);
+
+/* Is it known that other parts hide all of a facet, in truth too? */
+static inline int lrcsi_masked_band_is_hidden(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->region_hidden[band->whole->region[facet]] || band->facet_hidden[facet];
+}
+
+/* The fractions of lrcsi_proximity_band; 0 of masked facets. Facets of hidden regions meet no band,
+   and need no mask. */
+static inline double lrcsi_masked_mismatch(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->mismatch[facet];
+}
+
+static inline double lrcsi_masked_gain(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->gain[facet];
+}
+
+static inline double lrcsi_masked_loss(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->loss[facet];
+}
+
+static inline double lrcsi_masked_rows(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->rows[facet];
+}
+
+#endif
