@@ -78,24 +78,32 @@ in_core && /\([ \t]*\*[ \t]*(const[ \t]+)?[a-z_0-9]*[ \t]*(\[[^]]*\])?\)[ \t]*\(
     breach("a function pointer in the core")
 }' $files >>"$log" || exit 1
 
-# A module is a header with its source: no two include each other, directly or by way of others.
-if ! awk '
-FNR == 1 {
-    file = FILENAME
-    sub(/^src\//, "", file)
-    sub(/\.[ch]$/, "", file)
-    folder = file
-    sub(/[^\/]*$/, "", folder)
+# Prints pairs of modules, a header with its source each, of which the first includes the second;
+# with `folders` 1 pairs of their folders, of layers that have some.
+includes() {
+    awk -v folders="$1" '
+    function folder_of(path) { sub(/\/[^\/]*$/, "", path); return path }
+    FNR == 1 {
+        file = FILENAME
+        sub(/^src\//, "", file)
+        sub(/\.[ch]$/, "", file)
+    }
+    /^[ \t]*#[ \t]*include[ \t]*"[^"]*\.h"/ {
+        split($0, part, "\"")
+        to = part[2]
+        sub(/\.h$/, "", to)
+        if (to !~ /\//) to = folder_of(file) "/" to
+        if (folders && folder_of(to) != folder_of(file)) print folder_of(file), folder_of(to)
+        if (!folders && to != file) print file, to
+    }' $(echo "$files" | grep '^src/')
 }
-/^[ \t]*#[ \t]*include[ \t]*"[^"]*\.h"/ {
-    split($0, part, "\"")
-    to = part[2]
-    sub(/\.h$/, "", to)
-    if (to !~ /\//) to = folder to
-    if (to != file) print file, to
-}' $(echo "$files" | grep '^src/') | tsort >/dev/null 2>"$log.cycle"; then
-    sed 's/^tsort: /cyclic include: /; /loop:$/d' "$log.cycle" >>"$log"
-fi
+
+# No two modules include each other, directly or by way of others, and no two folders.
+for folders in 0 1; do
+    if ! includes $folders | tsort >/dev/null 2>"$log.cycle"; then
+        sed 's/^tsort: /cyclic include: /; /loop:$/d' "$log.cycle" >>"$log"
+    fi
+done
 rm -f "$log.cycle"
 
 # One name, one thing, in the whole library: its files can be joined into one.

@@ -6,7 +6,7 @@
 #include <lrcs/lrcs.h>
 
 #include "check.h"
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "view/view.h"
 
 typedef struct patch_scene {

@@ -5,8 +5,8 @@
 #include "analysis/forecast.h"
 
 #include "base/work.h"
-#include "integrate/cost.h"
-#include "integrate/plan.h"
+#include "integrate/plan/cost.h"
+#include "integrate/plan/plan.h"
 #include "integrate/sigma.h"
 
 /* The time that a raster with a bound takes besides drawing, relative to that of clipping: for the

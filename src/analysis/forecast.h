@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The expected time of runs, by the cost model of the planner (integrate/cost.h). */
+/* The expected time of runs, by the cost model of the planner (integrate/plan/cost.h). */
 #ifndef LRCSI_FORECAST_H
 #define LRCSI_FORECAST_H
 

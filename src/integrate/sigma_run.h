@@ -5,7 +5,7 @@
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
-#include "integrate/cost.h"
+#include "integrate/plan/cost.h"
 #include "integrate/sum/total.h"
 
 enum lrcsi_sigma_stage {

@@ -3,7 +3,7 @@
    each seen instead of the other from one side. Call the facets on the same three points a group.
    When the laser sees the fronts of the facets of one winding, it sees the backs of those of the
    other. They are at equal distance; of equally distant facets the first front in order is seen,
-   else the first back that reflects, else the first back (visibility/sample.h).
+   else the first back that reflects, else the first back (visibility/base/sample.h).
 
    A group with both windings shows a front to every direction (except edge-on, where nothing is
    seen). So only the first facet of each winding is ever seen: the two are opposite facets. The one

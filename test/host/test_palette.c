@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Colours of materials: all of them are told apart, on white, on dark and from grey. */
+#include "host/chart/palette.h"
 #include "host/picture/colouring.h"
-#include "host/picture/palette.h"
 
 #include "check.h"
 

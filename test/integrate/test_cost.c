@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What auto counts before it chooses, and that what it chooses is bounded by what it counted. */
-#include "integrate/cost.h"
+#include "integrate/plan/cost.h"
 
 #include "scenes.h"
 

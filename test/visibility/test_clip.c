@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Convex pieces split and measured: areas by hand, in numbers that doubles hold. */
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
 /* Where facets meet each other's planes, and which is nearer, by hand. */
 #include "visibility/cells/contact.h"
 
+#include "visibility/base/sample.h"
 #include "visibility/plate_and.h"
-#include "visibility/sample.h"
 
 static test_scene scene;
 static lrcs_work work;

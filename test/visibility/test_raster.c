@@ -4,7 +4,7 @@
 #include "visibility/raster/raster.h"
 
 #include "scenes.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 static test_scene scene;
 static lrcs_work work;

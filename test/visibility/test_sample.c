@@ -2,7 +2,7 @@
 /* Lines of sight: a closed surface is met once going in and once coming out, also through its
    vertices and edges; and which of two facets comes first where they coincide, meet or nearly so.
  */
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 #include "scenes.h"
 

@@ -5,9 +5,9 @@
 #include "host/chart/axis.h"
 #include "host/chart/canvas.h"
 #include "host/chart/letters.h"
+#include "host/chart/palette.h"
 #include "host/chart/series.h"
 #include "host/chart/svg.h"
-#include "host/picture/palette.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
 
 #include "base/constant.h"
 #include "host/chart/letters.h"
-#include "host/picture/palette.h"
+#include "host/chart/palette.h"
 
 #define ANNOTATE_MARGIN 16.0
 #define ANNOTATE_TYPE   14.0

@@ -4,7 +4,7 @@
 #include "host/picture/colouring.h"
 
 #include "base/constant.h"
-#include "host/picture/palette.h"
+#include "host/chart/palette.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Visible polygons as vector graphics: one path per facet, in metres, under one transform to the
    drawing. colouring.c decides colours, legend.c the legend below. */
+#include "host/chart/palette.h"
 #include "host/chart/svg.h"
 #include "host/picture/annotate.h"
 #include "host/picture/legend.h"
-#include "host/picture/palette.h"
 
 #include <math.h>
 

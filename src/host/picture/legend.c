@@ -5,7 +5,7 @@
 #include "host/picture/legend.h"
 
 #include "host/chart/letters.h"
-#include "host/picture/palette.h"
+#include "host/chart/palette.h"
 
 #include <math.h>
 

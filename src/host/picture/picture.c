@@ -2,9 +2,9 @@
 /* The picture of a run as pixels: the position of the drawing, and the averaging of cells of the
    run's image. colouring.c decides colours, legend.c the legend below. */
 #include "host/chart/canvas.h"
+#include "host/chart/palette.h"
 #include "host/picture/annotate.h"
 #include "host/picture/legend.h"
-#include "host/picture/palette.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #define LRCSI_CURVE_H
 
 #include "integrate/cubature/cubature.h"
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "visibility/occlude.h"
 #include "visibility/raster/visible.h"
 

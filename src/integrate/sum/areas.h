@@ -5,7 +5,7 @@
 #ifndef LRCSI_AREAS_H
 #define LRCSI_AREAS_H
 
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "integrate/wall/round_pieces.h"
 #include "visibility/raster/visible.h"
 #include "visibility/uniform/query.h"

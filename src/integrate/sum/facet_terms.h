@@ -4,7 +4,7 @@
 #define LRCSI_FACET_TERMS_H
 
 #include "integrate/wall/patch.h"
-#include "visibility/visible_area.h"
+#include "visibility/base/visible_area.h"
 
 /* Scaled, with the factor 4 pi. */
 typedef struct lrcsi_facet_terms {

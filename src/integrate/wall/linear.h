@@ -6,7 +6,7 @@
 
 #include "integrate/wall/patch.h"
 #include "optics/reflect.h"
-#include "visibility/visible_area.h"
+#include "visibility/base/visible_area.h"
 
 /* l = (mean over the patch) + gradient . (x - c), where x is a point of the facets that share the
    patch, c their centroid, and both are projected to the view plane. Scaled, per unit of area of

@@ -5,7 +5,7 @@
 #define LRCSI_PATCH_H
 
 #include "base/constant.h"
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "mesh/shape/tessellate.h"
 
 /* The mean of f_r cos^2 over a patch, per unit of area of the patch's facets. */

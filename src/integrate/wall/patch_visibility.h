@@ -8,8 +8,8 @@
 #define LRCSI_PATCH_VISIBILITY_H
 
 #include "integrate/wall/patch.h"
+#include "visibility/base/visible_area.h"
 #include "visibility/proximity/masked_band.h"
-#include "visibility/visible_area.h"
 
 enum lrcsi_patch_state {
     LRCSI_PATCH_AWAY,    /* no side of the facet that reflects faces the laser */

@@ -26,7 +26,7 @@
 #ifndef LRCSI_ROUND_PIECES_H
 #define LRCSI_ROUND_PIECES_H
 
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "integrate/wall/round_terms.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity/masked_band.h"

@@ -19,8 +19,8 @@
 
 #include "integrate/wall/round_sector.h"
 #include "integrate/wall/round_terms.h"
+#include "visibility/base/visible_area.h"
 #include "visibility/proximity/proximity_band.h"
-#include "visibility/visible_area.h"
 
 /* For the wall's inside. Given: the visible areas of all facets, terms[facet_count] with all
    pieces. Returns 0, and adds nothing, if there is no memory, a side is not known, or a margin is

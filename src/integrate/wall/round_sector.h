@@ -5,7 +5,7 @@
 #ifndef LRCSI_ROUND_SECTOR_H
 #define LRCSI_ROUND_SECTOR_H
 
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "integrate/wall/round_surface.h"
 #include "mesh/shape/revolution.h"
 

@@ -4,7 +4,7 @@
 #ifndef LRCSI_SHAPES_H
 #define LRCSI_SHAPES_H
 
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 #include "view/clear.h"
 
 /* What a clear shape adds to sigma, scaled, with the factor 4 pi. */

@@ -26,9 +26,9 @@
 #include "base/constant.h"
 #include "base/dd.h"
 #include "base/range.h"
+#include "visibility/base/sample.h"
 #include "visibility/index/event.h"
 #include "visibility/index/grid.h"
-#include "visibility/sample.h"
 
 /* The axes of the view, perpendicular to the direction within 32 u^2. The rows of R are so within 4
    u; their components along the direction are subtracted in the lower parts. The axes may deviate

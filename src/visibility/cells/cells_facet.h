@@ -7,7 +7,7 @@
 
 #include "base/dd.h"
 #include "view/view.h"
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 #include "visibility/index/marks.h"
 
 /* What is known of a facet in all cells, bits. */

@@ -12,8 +12,8 @@
 #include "base/exact.h"
 #include "base/length.h"
 #include "base/range.h"
-#include "visibility/clip.h"
-#include "visibility/sample.h"
+#include "visibility/base/clip.h"
+#include "visibility/base/sample.h"
 
 /* Intersections are accurate to a double if heights exceed their errors by this factor. */
 #define HEIGHT_SUFFICES 0x1p53

@@ -9,8 +9,8 @@
 #include "base/constant.h"
 #include "base/length.h"
 #include "view/side.h"
+#include "visibility/base/sample.h"
 #include "visibility/cells/contact.h"
-#include "visibility/sample.h"
 
 /* --- candidates ------------------------------------------------------------------------------- */
 

@@ -10,10 +10,10 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "view/side.h"
+#include "visibility/base/sample.h"
 #include "visibility/cells/cells_cover.h"
 #include "visibility/cells/contact.h"
 #include "visibility/cells/facet_cells_candidate.h"
-#include "visibility/sample.h"
 
 /* The sides of a candidate need better error bounds if its farthest corner is more than this many
    times as far away as its nearest corner and the reach of f together. Heuristic: both bounds hold

@@ -4,10 +4,10 @@
 #ifndef LRCSI_FACET_CELLS_STATE_H
 #define LRCSI_FACET_CELLS_STATE_H
 
+#include "visibility/base/visible_area.h"
 #include "visibility/cells/cells_division.h"
 #include "visibility/cells/target.h"
 #include "visibility/uniform/classify.h"
-#include "visibility/visible_area.h"
 
 /* A line: the distance from it is a x + b y + c, with an error of at most err. */
 typedef struct lrcsi_facet_cells_side {

@@ -11,7 +11,7 @@
 #include "base/outward.h"
 #include "base/range.h"
 #include "view/product.h"
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 
 /* A point counts as far if its distance is more than this many times that of the points with which
    it is compared. Heuristic: the errors returned hold for either choice. */

@@ -5,8 +5,8 @@
 #ifndef LRCSI_MASKED_BAND_H
 #define LRCSI_MASKED_BAND_H
 
+#include "visibility/base/visible_area.h"
 #include "visibility/proximity/proximity_band.h"
-#include "visibility/visible_area.h"
 
 typedef struct lrcsi_masked_band {
     const lrcsi_proximity_band *whole; /* the band */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer: N x N samples at pixel centres over the view's window. The owner of a sample is the
-   facet that covers it nearest the laser. Coverage and depth order are exact (visibility/sample.h);
+   facet that covers it nearest the laser. Coverage and depth order are exact (visibility/base/sample.h);
    nearly always floats or doubles decide them, because their error bounds suffice.
 
    Samples are divided into tiles. If only some facets matter, only the tiles around these are

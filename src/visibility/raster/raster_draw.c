@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Draws facets into the z-buffer. Edge functions and heights in floats or doubles decide coverage
-   and depth order where their error bounds suffice; visibility/sample.h decides the rest. What the
+   and depth order where their error bounds suffice; visibility/base/sample.h decides the rest. What the
    samples mean for visible areas is decided elsewhere (visibility/raster/visible.h, preview.h).
 
    The driver is raster_make:
@@ -18,10 +18,10 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/base/sample.h"
 #include "visibility/index/grid.h"
 #include "visibility/index/marks.h"
 #include "visibility/raster/raster.h"
-#include "visibility/sample.h"
 #include "visibility/uniform/query.h"
 
 /* The number of samples drawn at once. Samples beyond the end of a span are stored unchanged. */

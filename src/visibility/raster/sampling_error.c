@@ -24,7 +24,7 @@
 #include <math.h>
 
 #include "base/range.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 /* Squares of estimates, in pixels, calibrated on scenes of seeds 101 and 102 (make bounds), on the
    demo and on three models (make estimate). */

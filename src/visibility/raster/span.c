@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Where the edge functions of a facet cross a row of pixels. Whether the facet covers a sample near
-   one of its sides is not decided here, but exactly in visibility/sample.h.
+   one of its sides is not decided here, but exactly in visibility/base/sample.h.
 
    Within a pixel, an edge function differs from its value at the centre by at most variation =
    (|dx| + |dy|) / 2. A span therefore ends where the edge function passes one of four limits:

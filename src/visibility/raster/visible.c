@@ -27,11 +27,11 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
+#include "visibility/base/sample.h"
 #include "visibility/index/marks.h"
 #include "visibility/raster/sampling_error.h"
 #include "visibility/raster/visible_fraction.h"
-#include "visibility/sample.h"
 #include "visibility/uniform/query.h"
 
 /* --- what queries decide ---------------------------------------------------------------------- */
@@ -209,7 +209,7 @@ static double square_part(double value, double larger, double smaller)
 
    Otherwise, the corners have errors of position_err in each coordinate. The area then has an error
    of at most 4 position_err: the extents of the sides within the pixel, along both axes together.
-   Roundings (visibility/clip.h) are less than another 4 position_err, because position_err is more
+   Roundings (visibility/base/clip.h) are less than another 4 position_err, because position_err is more
    than 8 u of the distance of a corner from any pixel, and more than 16 u. */
 static double pixel_area(const drawn_facet *f, uint32_t x, uint32_t y)
 {

@@ -3,9 +3,9 @@
 #ifndef LRCSI_VISIBLE_H
 #define LRCSI_VISIBLE_H
 
+#include "visibility/base/visible_area.h"
 #include "visibility/raster/raster.h"
 #include "visibility/uniform/decisions.h"
-#include "visibility/visible_area.h"
 
 /* Sets visible[facet] to all of the facet or nothing, by its lrcsi_query_answer; does not change it
    if that is undecided. */

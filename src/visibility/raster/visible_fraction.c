@@ -22,7 +22,7 @@
 #include "base/fnv.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 #include "visibility/index/marks.h"
 #include "visibility/uniform/query.h"
 

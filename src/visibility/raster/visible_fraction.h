@@ -3,9 +3,9 @@
 #ifndef LRCSI_VISIBLE_FRACTION_H
 #define LRCSI_VISIBLE_FRACTION_H
 
+#include "visibility/base/visible_area.h"
 #include "visibility/raster/raster.h"
 #include "visibility/uniform/decisions.h"
-#include "visibility/visible_area.h"
 
 /* Sums over the facets of one component whose samples are pooled; areas in scaled units. */
 typedef struct lrcsi_component_sum {

@@ -29,7 +29,7 @@
 #include "base/sort.h"
 #include "base/work.h"
 #include "view/side.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 /* The largest number of rows and listed events that are examined to decide whether any event may
    cross a meshlet. Heuristic: facets are tested one by one if more would have to be. */

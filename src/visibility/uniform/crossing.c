@@ -9,7 +9,7 @@
 #include "base/vec3.h"
 #include "base/work.h"
 #include "view/side.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 /* To decide whether any event crosses a facet, at most MAX_LISTED listed events are examined, and
    at most MAX_TESTED of those whose boxes meet the facet's box. One facet in 100,000 of real models

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The visibility of a facet along one line of sight, against the facets listed in the grid buckets
-   of the line. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes
+   of the line. Which of two facets is nearer is decided by visibility/base/sample.h, unless their boxes
    already show it. */
 #include "visibility/uniform/query.h"
 
@@ -9,7 +9,7 @@
 
 #include "base/vec3.h"
 #include "base/work.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 /* A point whose line of sight passes through the interior of the facet; the point lies on the facet
    up to rounding. If the facet is so thin that rounding moves such points outside, a corner is

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex pieces and lines: what only the former clipping needs, in addition to visibility/clip.h.
+/* Convex pieces and lines: what only the former clipping needs, in addition to visibility/base/clip.h.
    Rounding errors are accounted for in reference/occlude.c. */
 #ifndef REF_CLIP_H
 #define REF_CLIP_H
 
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 
 /* A directed segment, from `at` to `at + to`, and the line through it. */
 typedef struct lrcsi_clip_line {

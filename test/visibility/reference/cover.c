@@ -18,8 +18,8 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/base/sample.h"
 #include "visibility/cells/contact.h"
-#include "visibility/sample.h"
 
 #define U 0x1p-53
 

@@ -29,7 +29,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 #define U     0x1p-53
 #define WIDTH (32 * U)

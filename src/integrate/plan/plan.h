@@ -20,7 +20,7 @@ typedef struct lrcsi_plan {
     uint32_t size;      /* of the first raster, if one is drawn, unless `previews` */
     const char *reason; /* why this method */
     int previews;       /* auto, and the estimate of a raster may be accepted: the method that is
-                           estimated to cost less comes first (integrate/cost.h) */
+                           estimated to cost less comes first (integrate/plan/cost.h) */
     int samples_only; /* the areas of a raster are taken from its samples alone, without a proof */
     int fronts_visible; /* proved: in this view no front facet with cos(theta) > grazing_cos is
                          hidden */

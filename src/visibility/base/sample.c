@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Exact decisions along one line of sight. Which facets are candidates, and where the lines of
    sight run, is decided elsewhere. */
-#include "visibility/sample.h"
+#include "visibility/base/sample.h"
 
 #include <math.h>
 

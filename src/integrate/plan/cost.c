@@ -2,7 +2,7 @@
 /* A model of the time that methods take: the sum of several counts, each multiplied by the time of
    one item. These times were measured on one machine (make bench; 3 GHz); only their ratios matter.
    All constants are heuristics: no bound depends on the model. */
-#include "integrate/cost.h"
+#include "integrate/plan/cost.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The colours for numbers and names. It does not decide what they represent. */
-#include "host/picture/palette.h"
+#include "host/chart/palette.h"
 #include "base/constant.h"
 
 #include <math.h>

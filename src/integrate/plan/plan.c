@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The planner decides from the proofs of scene/solid.h, from which facets face the laser, and from
    the effects that the options switch off or on. */
-#include "integrate/plan.h"
+#include "integrate/plan/plan.h"
 
 /* Heuristics, which affect the time of a run, and whether its answer is one of clipping or of a
    raster: the size of the first raster, if its bound is to meet the tolerance; the tolerance below

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Convex polygons and lines of the plane in plain doubles. The caller accounts for the errors of
    the arguments; rounding errors of the results are stated at each function. */
-#include "visibility/clip.h"
+#include "visibility/base/clip.h"
 
 #include <math.h>
 #include <string.h>
