@@ -6,8 +6,9 @@
    2. where no shadows are searched for, lrcsi_sigma_sum_unshadowed (sigma_sum.c), and that is all;
    3. lrcsi_view_project, lrcsi_sigma_classify (sigma_search.c): view coordinates, undecided facets;
    4. until an answer is accepted: lrcsi_attempts_next (sigma_attempt.c) chooses a method or a
-      resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it, lrcsi_sigma_sum
-      (sigma_sum.c) sums over them, lrcsi_attempts_end (sigma_attempt.c) ends the attempt. */
+      resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it,
+      lrcsi_sigma_integrate (sigma_sum.c) integrates where areas do not suffice, lrcsi_sigma_sum
+      (sigma_sum.c) sums over all facets, lrcsi_attempts_end (sigma_attempt.c) ends the attempt. */
 #include "integrate/sigma.h"
 
 #include <math.h>
@@ -182,7 +183,8 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
         status = lrcsi_sigma_search(run, &attempts);                   /* visible areas */
         if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
             request->last == LRCSI_SIGMA_SUM) {
-            lrcsi_sigma_sum(run, &attempt->meter);
+            lrcsi_sigma_integrate(run, &attempt->meter); /* where areas do not suffice */
+            run->outcome.total = lrcsi_sigma_sum(run, NULL);
         }
         lrcsi_attempts_end(run, &attempts);
     }
@@ -305,7 +307,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            (void)lrcsi_sigma_total(&run, records); /* the same total again */
+            (void)lrcsi_sigma_sum(&run, records); /* the same total again */
         }
         lrcsi_sigma_part_error_copy(&run);
         *result = answer;

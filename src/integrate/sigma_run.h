@@ -139,13 +139,14 @@ int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);
 
 /* The sum over the visible areas. Returned also: records[facet_count] unless NULL, the errors of
    parts if they are asked for, and run->corrected. */
-lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records);
+lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records);
 
-/* Fills run->outcome.total from the areas that samples or clipping found. Steps are taken from the
-   given meter, which is that of the attempt that found them. */
-void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter);
+/* What the sum needs beside the areas that samples or clipping found: proofs about them, integrals
+   over curved normals and over visible pieces. Steps are taken from the given meter, which is that
+   of the attempt that found them. */
+void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter);
 
-/* The same where no shadows are searched for. */
+/* Fills run->outcome.total where no shadows are searched for. */
 void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run);
 
 #endif

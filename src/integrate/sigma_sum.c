@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over the visible areas of a pose, by whatever method they were found: replaces
-   areas by what is proved about them, integrates over curved normals, and sums. Also decides
+   areas by what is proved about them, integrates where areas do not suffice, and sums. Also decides
    whether the answer is accepted. */
 #include <math.h>
 
@@ -53,7 +53,7 @@ static const lrcsi_masked_band *run_band(const lrcsi_sigma *run)
     return run->classified && run->plan.proximity_band ? &run->masked : NULL;
 }
 
-lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
+lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
@@ -77,7 +77,7 @@ void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);
         lrcsi_curve_from_areas(view, &options, run->visible, run->curve_terms);
     }
-    run->outcome.total = lrcsi_sigma_total(run, NULL);
+    run->outcome.total = lrcsi_sigma_sum(run, NULL);
 }
 
 /* Are there proofs about the visible areas of the pose that the methods do not use? */
@@ -122,14 +122,15 @@ static void areas_apply_proofs(lrcsi_sigma *run)
     }
 }
 
-/* Computes the sum over the visible areas that samples or clipping found:
+/* Integrates where a facet's visible area does not suffice for its sigma, given the areas that
+   samples or clipping found:
    1. replaces areas by what is proved about them;
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. masks what is hidden of the proximity band, and integrates over the visible pieces of
-      round walls;
-   4. sums. Steps are taken from the given meter, which is that of the run or of an attempt. */
-void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
+      round walls.
+   Steps are taken from the given meter, which is that of the run or of an attempt. */
+void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int sampled = run->outcome.size != 0;
     if (lrcsi_sigma_has_proofs(run)) {
@@ -153,5 +154,4 @@ void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
                                 run->work, run->round_terms_memory);
         run->round_terms = run->round_terms_memory;
     }
-    run->outcome.total = lrcsi_sigma_total(run, NULL);
 }
