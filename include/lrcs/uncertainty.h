@@ -54,9 +54,12 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    are those of sigma, and rounding adds less than 1e-12 of the sum of their terms without signs. So
    are those of curved normals, up to the error of the cubature (curvature_estimate_m2). Those of
    shapes by their closed forms (LRCS_METHOD_CLOSED) in s and m are differences of order 8 of the
-   closed form, with errors of about 1e-9 of themselves and 1e-11 of the term. Those of partly
-   visible curved walls come from means over patches, corrected to first order: their error is not
-   bounded, and was 0.1 % where it was measured. An effect left out
+   closed form, with errors of about 1e-9 of themselves and 1e-11 of the term. Those of curved
+   walls come from the integrals and means that sigma consists of, so that A dA and B dB are its
+   parts to rounding (with curved normals, up to the error of the cubature); how far ds and dm are
+   from those of the true surface is not bounded. A term of amplitude 0 is no part of sigma: its
+   dA or dB on partly visible walls comes from means over patches, and may be off by percents on
+   coarse meshes (2.6 % for the glint of a partly hidden sphere of 500 facets). An effect left out
    (lrcs_run_options.without) has derivative 0. ds is 0 if A is 0, and dm if B is 0; at s = 0 dA and
    ds are 0, the limit from above.
    2. First order: the square root of the sum of g' C g over sources (lrcs_material.source), with g
@@ -69,7 +72,10 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    mean differs from sigma by more than a tenth of that (and both by more than three standard errors
    of the sample): sigma is then not linear in the parameters over their errors. The same seed gives
    the same sample on every machine. sigma at drawn s and m is interpolated between 17 nodes (9 with
-   curved normals) by cubics in its logarithm, with the exact slopes. */
+   curved normals) by cubics in its logarithm, with the slopes there. At the materials' own s and m
+   these are sigma and its derivatives. At the other nodes partly visible spheres, domes and
+   paraboloids count with means over patches; a factor makes value and slope of each material's term
+   right at its own s and m. */
 int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                          const lrcs_run_options *options, const lrcs_uncertainty_options *how,
                          lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,

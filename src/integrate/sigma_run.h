@@ -29,7 +29,8 @@ typedef struct lrcsi_outcome {
 typedef struct lrcsi_sigma_request {
     const lrcs_run_options *options; /* checked */
     int last;                        /* lrcsi_sigma_stage: the run ends after it */
-    int derivatives;    /* 1: integrals over curved normals include what derivatives need */
+    int derivatives;    /* 1: integrals over curved normals, and over visible pieces of round walls,
+                           include what derivatives need */
     double *part_error; /* room for [part_count], as in lrcs_run_options; NULL: not asked for */
 } lrcsi_sigma_request;
 

@@ -149,9 +149,10 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run_band(run)) {
         lrcsi_masked_band_find(&run->masked, run->visible, meter, run->work);
     }
-    if (run_band(run) && run->moment && !run->request.derivatives) {
-        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, run->visible, meter,
-                                run->work, run->round_terms_memory);
+    if (run_band(run) && run->moment) {
+        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, run->visible,
+                                run->request.derivatives, meter, run->work,
+                                run->round_terms_memory);
         run->round_terms = run->round_terms_memory;
     }
 }

@@ -4,7 +4,9 @@
        g = (1 + u)^2 exp(-u / s^2)      and      d = (1 + u)^(-m/2 - 1),
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
-   Visible areas do not depend on materials.
+   Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
+   (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible pieces
+   of its round wall, as the mean over its patch, or from its normal.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"
@@ -17,23 +19,18 @@
 #include "integrate/wall/patch.h"
 #include "optics/reflect.h"
 
-/* The visible fraction of a facet that reflects, as the sum of Eq. 2 has it; 0 if the sum does not
-   include the facet. */
-static double visible_fraction(const lrcsi_sigma *run, uint32_t facet,
+/* The visible fraction of a facet that the sum of Eq. 2 includes, as that sum has it. */
+static double visible_fraction(const lrcsi_areas *areas, const lrcsi_sigma *run, uint32_t facet,
                                const lrcsi_incidence *incidence)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, NULL};
-    if (!lrcsi_areas_is_summed(&areas, &run->view, facet)) {
-        return 0;
-    }
-    lrcsi_visible_area visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
+    lrcsi_visible_area visible = lrcsi_areas_of(areas, &run->view, &run->plan, facet, incidence);
     return lrcsi_areas_fraction(visible.area, incidence->projected);
 }
 
-/* The derivative dg/ds = g 2 u / s^3, from g u. */
+/* The derivative dg/ds = g 2 u / s^3, from g u: 0 at s = 0, where g is 0. */
 static double glint_slope_s(double glint_u, double s)
 {
-    return glint_u > 0 ? 2 * (glint_u / s / s) / s : 0;
+    return glint_u != 0 ? 2 * (glint_u / s / s) / s : 0;
 }
 
 /* Adds a facet or a shape: `at`, times a weight. */
@@ -77,8 +74,9 @@ static response_patches patches_find(const lrcsi_view *view, const lrcsi_plan *p
     return found;
 }
 
-/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it: from the
-   means over its patches, divided by the amplitudes, or from the flat facet. */
+/* The response of a unit of area of a facet that is no piece of a round wall, computed as the sum
+   of Eq. 2 computes it: from the means over its patches, divided by the amplitudes, or from the flat
+   facet. */
 static lrcsi_unit_response facet_response(const lrcs_brdf *own, const lrcs_brdf *unit, double u,
                                           const response_patches *patches)
 {
@@ -141,23 +139,48 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
     return at;
 }
 
-void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_response *response)
+/* The response of a facet of a round wall whose visible pieces are known: from the integrals over
+   these, divided by the amplitudes. Terms of amplitude 0, which these integrals do not include, are
+   those of the facet: `at` per unit of area, times a weight. */
+static lrcsi_unit_response pieces_response(const lrcs_brdf *own, const lrcsi_round_terms *wall,
+                                           double weight, const lrcsi_unit_response *at)
 {
+    lrcsi_unit_response sum = {weight * at->glint, weight * at->diffuse, weight * at->glint_s,
+                               weight * at->diffuse_m};
+    if (own->A > 0) {
+        sum.glint = LRCS_FOUR_PI * wall->glint / own->A;
+        sum.glint_s = LRCS_FOUR_PI * glint_slope_s(wall->glint_u / own->A, own->s);
+    }
+    if (own->B > 0) {
+        sum.diffuse = LRCS_FOUR_PI * wall->diffuse / own->B;
+        sum.diffuse_m = LRCS_FOUR_PI * -0.5 * (wall->diffuse_log / own->B);
+    }
+    return sum;
+}
+
+void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_sigma,
+                         lrcsi_response *response)
+{
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment,
+                               as_sigma ? run->round_terms : NULL};
     const lrcsi_view *view = &run->view;
     const lrcsi_plan *plan = &run->plan;
     const lrcsi_clear_shapes *clear = &run->clear;
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
-    lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}};
+    lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}}; /* response_patches */
+    patches[0].negligible = as_sigma ? run->outcome.total.negligible_remainder : 0;
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
-        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape) {
+        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape ||
+            !lrcsi_areas_is_summed(&areas, view, f)) {
             continue;
         }
+        const lrcsi_round_terms *wall = lrcsi_areas_round_terms(&areas, f);
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double fraction = visible_fraction(run, f, &incidence);
+        double fraction = visible_fraction(&areas, run, f, &incidence);
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
         const double u = incidence.tan2;
@@ -165,20 +188,27 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
         const lrcs_brdf own = {plan->glint == LRCSI_TERM_OMITTED ? 0 : brdf[material].A,
                                plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
-        double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
+        double whole = LRCS_FOUR_PI * 0.5 * p->normal[f].length;
+        double weight = whole * fraction;
+        int corrected = run->moment && run->corrected[f];
         if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
             const lrcsi_curve_terms *curved = &run->curve_terms[f];
             const lrcsi_unit_response at = {curved->glint, curved->diffuse,
                                             glint_slope_s(curved->glint_u, s),
                                             -0.5 * curved->diffuse_log};
             response_sum(to, 1, &at);
-        } else if (fraction > 0) {
+        } else if (fraction > 0 || corrected || wall) {
             response_patches found = patches_find(view, plan, &own, &unit, f, patches);
             lrcsi_unit_response at = facet_response(&own, &unit, u, &found);
-            response_sum(to, weight, &at);
-            if (run->moment && run->corrected[f]) {
+            if (wall) {
+                at = pieces_response(&own, wall, weight, &at);
+                response_sum(to, 1, &at);
+            } else {
+                response_sum(to, weight, &at);
+            }
+            if (corrected) { /* even if its area is 0: its moment has an error */
                 at = correction_response(run, &own, &unit, f, &found);
-                response_sum(to, weight / fraction, &at);
+                response_sum(to, whole, &at);
             }
         }
     }

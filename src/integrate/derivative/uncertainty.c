@@ -5,7 +5,9 @@
    lrcs_uncertainty_run:
    1. The pose, as lrcs_sigma_run (lrcsi_sigma_stages).
    2. The responses of all materials at the nodes of s and m (lrcsi_response_make): over the visible
-      areas of that pose or, with curved normals, from a pose for each node (run_node).
+      areas of that pose or, with curved normals, from a pose for each node (run_node). The visible
+      pieces of round walls are integrated at the materials' own s and m only: at other nodes they
+      count with means over patches, corrected by what these are off at the own node (nodes_correct).
    3. The derivatives of sigma, from the node of the materials' own s and m.
    4. Sources: materials with the same source have the same errors, and are combined (sources_make).
    5. First order: with v the four derivatives times the four standard deviations and C the
@@ -339,7 +341,11 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
     out.low_m2 = lrcsi_max(0, sigma - out.deviation_m2);
     out.high_m2 = sigma + out.deviation_m2;
     if (sources > 0 && options->draws > 0) { /* 6 */
+        /* What other materials add. With curved normals the cubature at the own node is not that of
+           sigma: if it exceeds sigma, the draws are scaled, so that they are sigma where nothing is
+           off; otherwise only rounding makes `own` exceed sigma. */
         double fixed = lrcsi_max(0, sigma - own);
+        double scale = own > sigma ? sigma / own : 1;
         uint64_t state = options->seed;
         lrcsi_sum sum = {0, 0};
         lrcsi_sum square = {0, 0};
@@ -347,7 +353,7 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
             draw[i] = fixed;
             for (uint32_t k = 0; k < sources; k++) {
                 lrcs_brdf at = source_draw(&list[k], &state);
-                draw[i] += source_sigma(&list[k], &at);
+                draw[i] += scale * source_sigma(&list[k], &at);
             }
             lrcsi_sum_add(&sum, draw[i]);
         }
@@ -378,8 +384,9 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
 
 /* Memory for the responses of all materials. */
 typedef struct response_memory {
-    response_node *node; /* [nodes][material_count] */
-    lrcs_brdf *brdf;     /* [material_count]: at the current node; the next two likewise */
+    response_node *node;     /* [nodes][material_count] */
+    response_node *computed; /* [material_count]: the own node, computed as the others are */
+    lrcs_brdf *brdf;         /* [material_count]: at the current node; the next two likewise */
     lrcsi_response *response;
     lrcs_material *material; /* the scene's materials with the parameters of the node */
 } response_memory;
@@ -390,6 +397,7 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
     size_t count = prepared->scene->material_count;
     size_t need = lrcs_sigma_need(prepared, options);
     need = lrcsi_work_add(need, lrcsi_work_bytes(count * NODES, sizeof(response_node)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(response_node)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_brdf)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcsi_response)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
@@ -398,19 +406,60 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
     return lrcsi_work_add(need, lrcsi_work_bytes(how->draws, sizeof(double)));
 }
 
-/* Computes the responses at node k, over the visible areas of a finished run. */
-static void node_fill(const lrcsi_sigma *run, response_memory *memory, uint32_t k)
+/* Computes the responses over the visible areas of a finished run, with the parameters
+   memory->brdf: node[material_count]. as_sigma: as for lrcsi_response_make. */
+static void node_fill(const lrcsi_sigma *run, int as_sigma, const response_memory *memory,
+                      response_node *node)
 {
     const lrcs_prepared *p = run->view.prepared;
     uint32_t count = p->scene->material_count;
-    lrcsi_response_make(run, memory->brdf, memory->response);
+    lrcsi_response_make(run, memory->brdf, as_sigma, memory->response);
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_response *at = &memory->response[i];
-        memory->node[(size_t)k * count + i] =
-            (response_node){{lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
-                             lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s))},
-                            {lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
-                             lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))}};
+        node[i] = (response_node){{lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
+                                   lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s))},
+                                  {lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
+                                   lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))}};
+    }
+}
+
+/* Corrects the response of a term at a node, `apart` from its own one, by a factor that makes value
+   and slope right at the own node: f exp(c apart), at most a factor of e from f. Given: at the own
+   node, the right response and that computed as at the other nodes. */
+static response response_correct(response at, double apart, const response *right,
+                                 const response *computed)
+{
+    if (!(right->value > RESPONSE_MIN && computed->value > RESPONSE_MIN)) {
+        return at;
+    }
+    double c = right->slope / right->value - computed->slope / computed->value;
+    double exponent = lrcsi_min(1, lrcsi_max(-1, c * apart));
+    double factor = right->value / computed->value * lrcsi_exp(exponent);
+    double slope = fabs(exponent) < 1 ? c : 0;
+    return (response){factor * at.value, factor * (at.slope + slope * at.value)};
+}
+
+/* Corrects all nodes but the own one. Only on curved walls is the own node computed in another way
+   (lrcsi_response_make): elsewhere nothing changes. Given: computed[material_count], the own node,
+   if there are others. */
+static void nodes_correct(const lrcs_scene *scene, response_node *node, uint32_t nodes,
+                          const response_node *computed)
+{
+    const uint32_t count = scene->material_count;
+    const response_node *right = node + (size_t)(nodes / 2) * count;
+    for (size_t at = 0; at < (size_t)nodes * count; at++) {
+        const uint32_t i = (uint32_t)(at % count);
+        const uint32_t k = (uint32_t)(at / count);
+        const lrcs_material *m = &scene->material[i];
+        const node_axis s_axis = axis_of_s(m, nodes);
+        const node_axis m_axis = axis_of_m(m, nodes);
+        if (k != nodes / 2) {
+            node[at].glint = response_correct(node[at].glint, axis_value(&s_axis, k) - m->brdf.s,
+                                              &right[i].glint, &computed[i].glint);
+            node[at].diffuse =
+                response_correct(node[at].diffuse, axis_value(&m_axis, k) - m->brdf.m,
+                                 &right[i].diffuse, &computed[i].diffuse);
+        }
     }
 }
 
@@ -436,7 +485,7 @@ static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
     other.scene = &scene;
     int status = lrcsi_sigma_stages(&request, &other, pose, work, &run);
     if (status == LRCS_OK) {
-        node_fill(&run, memory, k);
+        node_fill(&run, 0, memory, memory->node + (size_t)k * scene.material_count);
     }
     work->used = mark;
     return status;
@@ -487,14 +536,16 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     response_memory memory;
     memory.node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory.node);
+    memory.computed = lrcsi_work_take(work, materials, sizeof *memory.computed);
     memory.brdf = lrcsi_work_take(work, materials, sizeof *memory.brdf);
     memory.response = lrcsi_work_take(work, materials, sizeof *memory.response);
     memory.material = lrcsi_work_take(work, materials, sizeof *memory.material);
-    if (!memory.node || !memory.brdf || !memory.response || !memory.material) {
+    if (!memory.node || !memory.computed || !memory.brdf || !memory.response || !memory.material) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     status = lrcsi_sigma_request_make(prepared, options, work, &request);
+    request.derivatives = !prepared->has_curved_normals; /* those take runs of their own */
     size_t start = work->used;
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
@@ -511,8 +562,15 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
             work->used = start; /* the run of the pose is no longer needed */
             status = run_node(prepared, pose, options, work, &memory, k);
         } else {
-            node_fill(&run, &memory, k);
+            const int is_own = k == nodes / 2;
+            node_fill(&run, is_own, &memory, memory.node + (size_t)k * materials);
+            if (is_own && nodes > 1) {
+                node_fill(&run, 0, &memory, memory.computed);
+            }
         }
+    }
+    if (status == LRCS_OK && !prepared->has_curved_normals) {
+        nodes_correct(scene, memory.node, nodes, memory.computed);
     }
     work->used = status == LRCS_OK ? start : work->used;
     const response_node *own = memory.node + (size_t)(nodes / 2) * materials;

@@ -213,6 +213,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     if (plan->patches) {
         run.patches.negligible = negligible_remainder(&run);
+        run.total.negligible_remainder = run.patches.negligible;
     }
     if (details->records) {
         records_start(&run);

@@ -43,6 +43,7 @@ typedef struct pieces_job {
     const lrcsi_visible_area *visible;
     lrcsi_round_wall wall; /* of the current part */
     double target;         /* the relative remainder that rules should have */
+    int derivatives;       /* of walls */
 } pieces_job;
 
 /* --- triangles -------------------------------------------------------------------------------- */
@@ -86,8 +87,8 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
 }
 
 /* Adds the integral of G over the triangle `corner`, of the given area, to a sum. The weight of a
-   point and the products with it have at most 16 roundings; that of the point's position is far
-   below the position_err that at.error includes (integrate/wall/round_surface.c). */
+   point has few roundings (lrcsi_round_sum_add); that of the point's position is far below the
+   position_err that at.error includes (integrate/wall/round_surface.c). */
 static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
                          const double corner[3][2], double area, const lrcsi_mean_rule *rule,
                          lrcsi_round_sum *sum)
@@ -107,9 +108,7 @@ static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
             lrcsi_round_value at =
                 lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, centre, v);
             double part = area * (2 * r * weight[i] * weight[j]);
-            sum->glint += part * at.glint;
-            sum->diffuse += part * at.diffuse;
-            sum->rounding += part * (at.error + 32 * LRCSI_U * (at.glint + at.diffuse));
+            lrcsi_round_sum_add(&job->wall, part, &at, sum);
         }
     }
 }
@@ -159,7 +158,7 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
                               lrcsi_round_sum *sum)
 {
     for (int n = 1; n <= DIVISIONS_MAX; n *= 2) {
-        lrcsi_round_sum all = {0, 0, 0, 0};
+        lrcsi_round_sum all = {.glint = 0};
         int fine = 1;
         for (int i = 0; i < n * n && fine; i++) {
             double part[3][2];
@@ -185,6 +184,8 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
         if (fine && isfinite(all.glint + all.diffuse + all.rounding + all.remainder)) {
             sum->glint += all.glint;
             sum->diffuse += all.diffuse;
+            sum->glint_u += all.glint_u;
+            sum->diffuse_log += all.diffuse_log;
             sum->rounding += all.rounding;
             sum->remainder += all.remainder;
             return 1;
@@ -244,7 +245,7 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     const lrcsi_target *target = &o->single.target;
     double projected = lrcsi_view_projected(view, facet);
     double bound = facet_bound(job, facet);
-    lrcsi_round_sum sum = {0, 0, 0, 0};
+    lrcsi_round_sum sum = {.glint = 0};
     double area_err = 0;
     int known = 1;
     if (!(bound < HUGE_VAL)) {
@@ -277,6 +278,8 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     *terms = (lrcsi_round_terms){.known = 1,
                                  .glint = sum.glint,
                                  .diffuse = sum.diffuse,
+                                 .glint_u = sum.glint_u,
+                                 .diffuse_log = sum.diffuse_log,
                                  .rounding = sum.rounding,
                                  .visibility =
                                      bound * (area.high - area.low + area_err) * LRCSI_OUTWARD_NANO,
@@ -368,6 +371,8 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
         if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
             terms[to].glint += margin.sum.glint;
             terms[to].diffuse += margin.sum.diffuse;
+            terms[to].glint_u += margin.sum.glint_u;
+            terms[to].diffuse_log += margin.sum.diffuse_log;
             terms[to].rounding += margin.sum.rounding;
             terms[to].own += margin.sum.remainder;
         } else {
@@ -394,6 +399,7 @@ static void job_take_wall(pieces_job *job, uint32_t facet)
     int side = job->view->facing[facet];
     if (!job->wall.view || job->wall.part != part || job->wall.surface.side != side) {
         job->wall = lrcsi_round_wall_make(job->view, job->plan, part, side);
+        job->wall.derivatives = job->derivatives;
     }
 }
 
@@ -424,12 +430,14 @@ static void add_rims(pieces_job *job, lrcs_work *work, lrcsi_round_terms *terms)
    3. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms)
+                             int derivatives, lrcsi_meter *meter, lrcs_work *work,
+                             lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
-    pieces_job job = {.view = view, .plan = plan, .band = band, .visible = visible};
+    pieces_job job = {
+        .view = view, .plan = plan, .band = band, .visible = visible, .derivatives = derivatives};
     lrcsi_occlusion *o = NULL;
     lrcsi_round_sector sector;
     job.target =

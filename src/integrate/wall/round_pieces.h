@@ -32,10 +32,12 @@
 #include "visibility/proximity/masked_band.h"
 
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
-   whose hidden facets are masked. Returned: terms[facet_count]. Without enough memory, or if steps
-   run out, no sector is found. */
+   whose hidden facets are masked; derivatives: 1 if the integrals are to include what derivatives
+   need. Returned: terms[facet_count]. Without enough memory, or if steps run out, no sector is
+   found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                             lrcsi_meter *meter, lrcs_work *work, lrcsi_round_terms *terms);
+                             int derivatives, lrcsi_meter *meter, lrcs_work *work,
+                             lrcsi_round_terms *terms);
 
 #endif

@@ -134,6 +134,8 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
         side->is_summed && side->is_visible) {
         to->glint -= margin.sum.glint;
         to->diffuse -= margin.sum.diffuse;
+        to->glint_u -= margin.sum.glint_u;
+        to->diffuse_log -= margin.sum.diffuse_log;
         to->rounding += margin.sum.rounding;
         to->own += margin.sum.remainder;
     } else {

@@ -36,6 +36,18 @@ lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan 
         .brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, placed->first_facet))};
 }
 
+void lrcsi_round_sum_add(const lrcsi_round_wall *wall, double area, const lrcsi_round_value *value,
+                         lrcsi_round_sum *sum)
+{
+    sum->glint += area * value->glint;
+    sum->diffuse += area * value->diffuse;
+    sum->rounding += fabs(area) * (value->error + 32 * LRCSI_U * (value->glint + value->diffuse));
+    if (wall->derivatives) {
+        sum->glint_u += area * value->glint * value->u;
+        sum->diffuse_log += area * value->diffuse * lrcsi_log1p(value->u).hi;
+    }
+}
+
 /* --- margins ---------------------------------------------------------------------------------- */
 
 /* A point of the arc, and its derivative with respect to t. On the meridian of a sphere or dome the
@@ -200,10 +212,7 @@ static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *sid
                 2 * t_weight[i] * s_weight[k] * (out[0] * tangent[1] - out[1] * tangent[0]);
             lrcsi_round_value value =
                 lrcsi_round_value_make(&wall->surface, &wall->brdf, &part->centre, v);
-            sum->glint += area * value.glint;
-            sum->diffuse += area * value.diffuse;
-            sum->rounding +=
-                fabs(area) * (value.error + 32 * LRCSI_U * (value.glint + value.diffuse));
+            lrcsi_round_sum_add(wall, area, &value, sum);
         }
     }
 }

@@ -17,6 +17,7 @@ typedef struct lrcsi_round_wall {
     lrcsi_revolution body;
     double unit; /* scaled length of a unit of the shape */
     lrcs_brdf brdf;
+    int derivatives; /* 1: sums include what derivatives need; lrcsi_round_wall_make sets 0 */
 } lrcsi_round_wall;
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t part, int side);
@@ -26,10 +27,17 @@ lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan 
 #define LRCSI_ROUND_RATIOS 6
 extern const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS];
 
-/* A sum of integrals of G, with bounds on its errors. */
+/* A sum of integrals of G, with bounds on its errors; glint_u and diffuse_log as in
+   lrcsi_round_terms. */
 typedef struct lrcsi_round_sum {
     double glint, diffuse, rounding, remainder;
+    double glint_u, diffuse_log;
 } lrcsi_round_sum;
+
+/* Adds an element of area to the sum, which counts as negative if the area does. Its bound on the
+   rounding error includes 16 roundings of the area and of the products with it. */
+void lrcsi_round_sum_add(const lrcsi_round_wall *wall, double area, const lrcsi_round_value *value,
+                         lrcsi_round_sum *sum);
 
 /* A side of a sector: the arc of its patch and the chord of its facets, with one parameter t in
    -1 .. 1. The arc is a part of a row's circle or of a meridian, with its own parameter, sign t. */

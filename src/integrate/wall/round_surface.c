@@ -109,7 +109,7 @@ static double gradient_err(const lrcsi_round_surface *surface, double length, do
 lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,
                                          const lrcsi_round_point *point, const double v[2])
 {
-    const lrcsi_round_value unknown = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    const lrcsi_round_value unknown = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
     const double *d = surface->axis[2];
     double move[3];
     double product[3];
@@ -151,7 +151,8 @@ lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, con
     return (lrcsi_round_value){
         .glint = secant * at.glint,
         .diffuse = secant * at.diffuse,
-        .error = 2 * secant * (at.error + at.glint * glint_err + at.diffuse * diffuse_err)};
+        .error = 2 * secant * (at.error + at.glint * glint_err + at.diffuse * diffuse_err),
+        .u = u};
 }
 
 double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,

@@ -67,10 +67,10 @@ int lrcsi_round_point_make(const lrcsi_round_surface *surface, const double x[2]
 /* The height of a point along d: z of the view times side. */
 double lrcsi_round_height(const lrcsi_round_surface *surface, const lrcsi_round_point *point);
 
-/* Both terms of G above the point of the view plane that is v from a point of the wall, and a bound
-   on the rounding error of their sum; all infinite if it is too large. */
+/* Both terms of G above the point of the view plane that is v from a point of the wall, a bound on
+   the rounding error of their sum, and u; all infinite if that bound is too large. */
 typedef struct lrcsi_round_value {
-    double glint, diffuse, error;
+    double glint, diffuse, error, u;
 } lrcsi_round_value;
 lrcsi_round_value lrcsi_round_value_make(const lrcsi_round_surface *surface, const lrcs_brdf *brdf,
                                          const lrcsi_round_point *point, const double v[2]);

@@ -5,8 +5,10 @@
 
 /* Scaled, without the factor 4 pi. T and M: integrate/wall/round_pieces.h. */
 typedef struct lrcsi_round_terms {
-    int known;             /* 0: the facet is not integrated in this way */
-    double glint, diffuse; /* M */
+    int known;                   /* 0: the facet is not integrated in this way */
+    double glint, diffuse;       /* M */
+    double glint_u, diffuse_log; /* the same integrals of glint * u and diffuse * log(1 + u), u =
+                                    tan^2(theta), if they are asked for; else 0 */
     double rounding;
     double visibility;   /* bound on the error of its visible area */
     double above, below; /* bounds on T - M and M - T that other parts cause */
