@@ -5,9 +5,9 @@
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
    Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
-   (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible pieces
-   of its round wall, as the mean over its patch, or from its normal.
-   Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
+   (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
+   pieces of its round wall, as the mean over its patch, or from its normal. Called:
+   lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"
 
@@ -75,8 +75,8 @@ static response_patches patches_find(const lrcsi_view *view, const lrcsi_plan *p
 }
 
 /* The response of a unit of area of a facet that is no piece of a round wall, computed as the sum
-   of Eq. 2 computes it: from the means over its patches, divided by the amplitudes, or from the flat
-   facet. */
+   of Eq. 2 computes it: from the means over its patches, divided by the amplitudes, or from the
+   flat facet. */
 static lrcsi_unit_response facet_response(const lrcs_brdf *own, const lrcs_brdf *unit, double u,
                                           const response_patches *patches)
 {

@@ -19,10 +19,10 @@ typedef struct lrcsi_response {
 /* Given: a run that has reached LRCSI_SIGMA_SUM, whose integrals over curved normals, if any, are
    at amplitudes of 1 and for derivatives; brdf[material_count]: the s and m at which the responses
    are computed, and the A and B that decide for which facets the mean over their patch is used;
-   as_sigma: 1 if brdf are the run's materials. Facets are then computed as they are in its sigma, so
-   that A and B times the responses are sigma to rounding. Else pieces of round walls, of which only
-   the integrals at the run's parameters are known, count with means over patches.
-   Returned: response[material_count], summed over facets in their order, then over clear shapes. */
+   as_sigma: 1 if brdf are the run's materials. Facets are then computed as they are in its sigma,
+   so that A and B times the responses are sigma to rounding. Else pieces of round walls, of which
+   only the integrals at the run's parameters are known, count with means over patches. Returned:
+   response[material_count], summed over facets in their order, then over clear shapes. */
 void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_sigma,
                          lrcsi_response *response);
 

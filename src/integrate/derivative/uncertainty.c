@@ -7,7 +7,8 @@
    2. The responses of all materials at the nodes of s and m (lrcsi_response_make): over the visible
       areas of that pose or, with curved normals, from a pose for each node (run_node). The visible
       pieces of round walls are integrated at the materials' own s and m only: at other nodes they
-      count with means over patches, corrected by what these are off at the own node (nodes_correct).
+      count with means over patches, corrected by what these are off at the own node
+      (nodes_correct).
    3. The derivatives of sigma, from the node of the materials' own s and m.
    4. Sources: materials with the same source have the same errors, and are combined (sources_make).
    5. First order: with v the four derivatives times the four standard deviations and C the

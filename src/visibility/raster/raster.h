@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer: N x N samples at pixel centres over the view's window. The owner of a sample is the
-   facet that covers it nearest the laser. Coverage and depth order are exact (visibility/base/sample.h);
-   nearly always floats or doubles decide them, because their error bounds suffice.
+   facet that covers it nearest the laser. Coverage and depth order are exact
+   (visibility/base/sample.h); nearly always floats or doubles decide them, because their error
+   bounds suffice.
 
    Samples are divided into tiles. If only some facets matter, only the tiles around these are
    active: nothing else is cleared, drawn or read, and its memory is never touched. */

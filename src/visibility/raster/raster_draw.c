@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Draws facets into the z-buffer. Edge functions and heights in floats or doubles decide coverage
-   and depth order where their error bounds suffice; visibility/base/sample.h decides the rest. What the
-   samples mean for visible areas is decided elsewhere (visibility/raster/visible.h, preview.h).
+   and depth order where their error bounds suffice; visibility/base/sample.h decides the rest. What
+   the samples mean for visible areas is decided elsewhere (visibility/raster/visible.h, preview.h).
 
    The driver is raster_make:
    1. lrcsi_raster_layout: the geometry of the raster; its arrays.

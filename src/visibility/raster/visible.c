@@ -209,8 +209,8 @@ static double square_part(double value, double larger, double smaller)
 
    Otherwise, the corners have errors of position_err in each coordinate. The area then has an error
    of at most 4 position_err: the extents of the sides within the pixel, along both axes together.
-   Roundings (visibility/base/clip.h) are less than another 4 position_err, because position_err is more
-   than 8 u of the distance of a corner from any pixel, and more than 16 u. */
+   Roundings (visibility/base/clip.h) are less than another 4 position_err, because position_err is
+   more than 8 u of the distance of a corner from any pixel, and more than 16 u. */
 static double pixel_area(const drawn_facet *f, uint32_t x, uint32_t y)
 {
     const lrcsi_edge_functions *e = &f->edges;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The visibility of a facet along one line of sight, against the facets listed in the grid buckets
-   of the line. Which of two facets is nearer is decided by visibility/base/sample.h, unless their boxes
-   already show it. */
+   of the line. Which of two facets is nearer is decided by visibility/base/sample.h, unless their
+   boxes already show it. */
 #include "visibility/uniform/query.h"
 
 #include <math.h>
