@@ -36,14 +36,15 @@
    12 + 2 (1 + 8) = 30 reaches of the facet (visibility/proximity/event_band.c, 5). */
 #define MAX_REACHES 12.0
 
+/* One side of a wall in a view. */
 typedef struct pieces_job {
     const lrcsi_view *view;
-    const lrcsi_plan *plan;
     const lrcsi_masked_band *band;
     const lrcsi_visible_area *visible;
-    lrcsi_round_wall wall; /* of the current part */
-    double target;         /* the relative remainder that rules should have */
-    int derivatives;       /* of walls */
+    lrcsi_classification *classification; /* for the occlusion */
+    lrcsi_meter *meter;
+    double target; /* the relative remainder that rules should have */
+    lrcsi_round_wall wall;
 } pieces_job;
 
 /* --- triangles -------------------------------------------------------------------------------- */
@@ -300,11 +301,17 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
             !lrcsi_masked_band_is_hidden(band, facet));
 }
 
-/* Is a facet on a round wall that may be used, apart from its visibility? The gain is known only of
-   facets of such walls that show the laser their outside, or an inside that reflects. */
+/* Does a facet show this side of the wall to the laser? */
+static int is_on_side(const pieces_job *job, uint32_t facet)
+{
+    return job->view->facing[facet] == job->wall.surface.side;
+}
+
+/* May a facet be used, apart from its visibility? The gain is known only of facets of round walls
+   that show the laser their outside, or an inside that reflects. */
 static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 {
-    return job->band->whole->gain_aligned[facet] >= 0 &&
+    return is_on_side(job, facet) && job->band->whole->gain_aligned[facet] >= 0 &&
            lrcsi_patch_exists(job->view->prepared, facet);
 }
 
@@ -324,8 +331,7 @@ static int sector_is_candidate(const pieces_job *job, const lrcsi_round_sector *
 /* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. A query at a
    point of the facet decides, so close to the middle of the side that what holds for the side holds
    for it. */
-static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrcsi_round_side *side,
-                      lrcsi_meter *meter)
+static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrcsi_round_side *side)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t f = side->facet;
@@ -343,15 +349,14 @@ static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrc
         double middle = 0.5 * (a[i] + b[i]);
         point[i] = middle + from * (c[i] - middle);
     }
-    int answer = lrcsi_query_point(facets, f, point, meter);
+    int answer = lrcsi_query_point(facets, f, point, job->meter);
     return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : -1;
 }
 
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
    visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
 static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
-                               const lrcsi_round_sector *sector, lrcsi_meter *meter,
-                               lrcsi_round_terms *terms)
+                               const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
 {
     const double reach = job->view->prepared->proximity.reach[job->wall.part];
     const uint32_t to =
@@ -360,10 +365,10 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
         const lrcsi_round_side *side = &sector->side[i];
         lrcsi_round_margin margin;
         if (side->neighbour != LRCS_NONE && terms[side->neighbour].known &&
-            job->view->facing[side->neighbour] == job->view->facing[side->facet]) {
+            is_on_side(job, side->neighbour)) {
             continue;
         }
-        int state = side_state(job, facets, side, meter);
+        int state = side_state(job, facets, side);
         if (state == 0) {
             continue;
         }
@@ -392,94 +397,85 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
     return known;
 }
 
-/* Takes the side of a wall that a facet shows to the laser. */
-static void job_take_wall(pieces_job *job, uint32_t facet)
+/* Integrates over the pieces of one side of a wall:
+   1. which sectors: all of whose integrals and margins are known; the integrals over their pieces;
+   2. the rim of an open part above its inside; where it is not known, the inside is left out;
+   3. the margins at the border of the set.
+   The occlusion is made when it is first needed. Returns 0 if there is no memory for it. */
+static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
+                          lrcsi_round_terms *terms)
 {
-    uint32_t part = job->view->prepared->scene->facet_part[facet];
-    int side = job->view->facing[facet];
-    if (!job->wall.view || job->wall.part != part || job->wall.surface.side != side) {
-        job->wall = lrcsi_round_wall_make(job->view, job->plan, part, side);
-        job->wall.derivatives = job->derivatives;
-    }
-}
-
-/* The rims of open parts above their insides; where this is not possible, these are left out. */
-static void add_rims(pieces_job *job, lrcs_work *work, lrcsi_round_terms *terms)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    for (uint32_t i = 0; i < p->scene->part_count; i++) {
-        const uint32_t from = p->scene->part[i].first_facet;
-        const uint32_t to = from + p->scene->part[i].facet_count;
-        uint32_t first = from;
-        while (first < to && !(terms[first].known && job->view->facing[first] < 0)) {
-            first++;
-        }
-        if (first == to) {
+    const lrcs_part *part = job->wall.surface.part;
+    const uint32_t end = part->first_facet + part->facet_count;
+    int any = 0;
+    lrcsi_round_sector sector;
+    for (uint32_t f = part->first_facet; f < end; f++) { /* 1 */
+        if (!facet_is_eligible(job, f) || !facet_is_uncertain(job, f) ||
+            !lrcsi_round_sector_make(&job->wall, f, &sector) ||
+            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried */
+            !sector_is_candidate(job, &sector) || !sector_has_margins(job, &sector)) {
             continue;
         }
-        job_take_wall(job, first);
-        int known = lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms);
-        for (uint32_t f = first; f < to && !known; f++) {
+        if (!*o && lrcsi_occlude_make(job->classification, job->meter, work, o) != LRCS_OK) {
+            return 0;
+        }
+        int known = 1;
+        for (int i = 0; i < sector.facets && known; i++) {
+            known = facet_integrate(job, *o, sector.facet[i], &terms[sector.facet[i]]);
+        }
+        for (int i = 0; i < sector.facets; i++) {
+            terms[sector.facet[i]].known = known;
+        }
+        any |= known;
+    }
+    if (any && job->wall.surface.side < 0 && /* 2 */
+        !lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms)) {
+        for (uint32_t f = part->first_facet; f < end; f++) {
             terms[f].known &= job->view->facing[f] > 0;
         }
     }
+    for (uint32_t f = part->first_facet; f < end && any; f++) { /* 3 */
+        if (terms[f].known && is_on_side(job, f) &&
+            lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
+            sector_add_margins(job, &(*o)->facets, &sector, terms);
+        }
+    }
+    return 1;
 }
 
-/* 1. Which sectors: all of whose integrals and margins are known; the integrals over their pieces.
-   2. The rims of open parts above their insides.
-   3. The margins at the border of the set. */
+/* Both sides of all round walls, except where a glint is so narrow that rounding matters. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                              int derivatives, lrcsi_meter *meter, lrcs_work *work,
                              lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = classification->view;
-    const uint32_t count = view->prepared->scene->facet_count;
+    const lrcs_scene *scene = view->prepared->scene;
     const size_t mark = work->used;
-    pieces_job job = {
-        .view = view, .plan = plan, .band = band, .visible = visible, .derivatives = derivatives};
+    pieces_job job = {.view = view,
+                      .band = band,
+                      .visible = visible,
+                      .classification = classification,
+                      .meter = meter};
     lrcsi_occlusion *o = NULL;
-    lrcsi_round_sector sector;
+    int is_enough = plan->patches; /* memory */
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
-    for (uint32_t f = 0; f < count; f++) {
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
         terms[f].known = 0;
     }
-    for (uint32_t f = 0; f < count && plan->patches; f++) { /* 1 */
-        if (!facet_is_eligible(&job, f) || !facet_is_uncertain(&job, f)) {
-            continue;
-        }
-        job_take_wall(&job, f);
-        if ((job.wall.brdf.A > 0 && !(job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN)) ||
-            !lrcsi_round_sector_make(&job.wall, f, &sector) ||
-            (f != sector.facet[0] && facet_is_uncertain(&job, sector.facet[0])) || /* tried */
-            !sector_is_candidate(&job, &sector) || !sector_has_margins(&job, &sector)) {
-            continue;
-        }
-        if (!o && lrcsi_occlude_make(classification, meter, work, &o) != LRCS_OK) {
-            return;
-        }
-        int known = 1;
-        for (int i = 0; i < sector.facets && known; i++) {
-            known = facet_integrate(&job, o, sector.facet[i], &terms[sector.facet[i]]);
-        }
-        for (int i = 0; i < sector.facets; i++) {
-            terms[sector.facet[i]].known = known;
-        }
-    }
-    if (o) {
-        add_rims(&job, work, terms); /* 2 */
-    }
-    for (uint32_t f = 0; f < count && o; f++) { /* 3 */
-        if (terms[f].known) {
-            job_take_wall(&job, f);
-            if (lrcsi_round_sector_make(&job.wall, f, &sector) && sector.facet[0] == f) {
-                sector_add_margins(&job, &o->facets, &sector, meter, terms);
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        for (int side = 1; side >= -1 && is_enough; side -= 2) {
+            if (lrcsi_shape_is_round(scene->part[i].kind) && scene->part[i].rigid) {
+                job.wall = lrcsi_round_wall_make(view, plan, i, side);
+                job.wall.derivatives = derivatives;
+                is_enough = (job.wall.brdf.A > 0 && !(job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN)) ||
+                            wall_integrate(&job, &o, work, terms);
             }
         }
     }
     work->used = mark;
-    for (uint32_t f = 0; f < count && meter->spent; f++) {
+    for (uint32_t f = 0; f < scene->facet_count && meter->spent; f++) {
         terms[f].known = 0;
     }
 }
