@@ -345,12 +345,73 @@ static void beside_curved_normals_the_result_is_that_of_the_pose(void **state)
     curved_free(&model);
 }
 
+/* The halves of a sphere as two domes, which share the points of their rims, behind the edge. The
+   second one is the first one turned over. */
+static lrcs_result two_domes(const double turn[3][3], double edge, const lrcs_brdf brdf[2],
+                             int exchanged, uint32_t facets)
+{
+    lrcs_recipe_part part[3];
+    lrcs_recipe_material material[3] = {{.name = "first", .brdf = brdf[0]},
+                                        {.name = "second", .brdf = brdf[1]},
+                                        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    for (int i = 0; i < 3; i++) {
+        const int half = i == 2 ? 2 : exchanged ? 1 - i : i;
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = material[half].name;
+        part[i].material_index = half;
+        part[i].shape =
+            (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.75, .parts = LRCS_SHAPE_WALL};
+        for (int k = 0; k < 9 && half < 2; k++) {
+            part[i].place.rotate[k / 3][k % 3] =
+                (half == 1 && k % 3 > 0 ? -1 : 1) * turn[k / 3][k % 3];
+        }
+    }
+    part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {8, 8, 0.25}};
+    part[2].place.translate[1] = edge + 4;
+    part[2].place.translate[2] = 3;
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 3, .material = material, .material_count = 3};
+    const lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    const lrcs_run_options run = exact_options();
+    return recipe_run(&recipe, &build, &run, (const double[3]){0, 0, 1});
+}
+
+/* Two domes are a sphere, whatever their materials, and in which order they come. */
+static void two_domes_are_a_sphere(void **state)
+{
+    (void)state;
+    static const double turn[3][3][3] = {{{1, 0, 0}, {0, 0.6, 0.8}, {0, -0.8, 0.6}},
+                                         {{0.6, 0, 0.8}, {0.64, 0.6, -0.48}, {-0.48, 0.8, 0.36}},
+                                         {{0, 1, 0}, {0.28, 0, 0.96}, {0.96, 0, -0.28}}};
+    static const lrcs_brdf black = {0, 0, 1, 0};
+    for (int i = 0; i < 18; i++) {
+        const lrcs_brdf *brdf = &brdfs[i % 3];
+        const double edge = i / 3 % 2 ? 0.05 : 0.6;
+        const double truth = 4 * PI * lit_integral(brdf, 0.75, 0, edge);
+        const double whole = 4 * PI * lit_integral(brdf, 0.75, 0, 0.75);
+        double sum[2] = {0, 0}; /* of the halves, the other one black; of their bounds */
+        for (int half = 0; half < 2; half++) {
+            const lrcs_brdf one[2] = {half ? black : *brdf, half ? *brdf : black};
+            lrcs_result r = two_domes(turn[i / 6], edge, one, 0, 2000);
+            lrcs_result other = two_domes(turn[i / 6], edge, one, 1, 2000);
+            check_abs(other.sigma_m2, r.sigma_m2, r.bound_m2 + other.bound_m2);
+            sum[0] += r.sigma_m2;
+            sum[1] += r.bound_m2;
+        }
+        check_abs(sum[0], truth, sum[1] + 1e-11 * whole);
+        const lrcs_brdf both[2] = {*brdf, *brdf};
+        lrcs_result r = two_domes(turn[i / 6], edge, both, 0, 2000);
+        check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-11 * whole);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_behind_a_straight_edge),
         cmocka_unit_test(a_dome_behind_a_straight_edge),
         cmocka_unit_test(a_paraboloid_behind_a_straight_edge),
+        cmocka_unit_test(two_domes_are_a_sphere),
         cmocka_unit_test(the_bound_holds_for_narrow_glints),
         cmocka_unit_test(with_less_memory_the_bound_holds),
         cmocka_unit_test(derivatives_are_those_of_sigma),

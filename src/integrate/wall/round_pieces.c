@@ -301,10 +301,11 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
             !lrcsi_masked_band_is_hidden(band, facet));
 }
 
-/* Does a facet show this side of the wall to the laser? */
+/* Does a facet belong to the part, and show this side of its wall to the laser? */
 static int is_on_side(const pieces_job *job, uint32_t facet)
 {
-    return job->view->facing[facet] == job->wall.surface.side;
+    return job->view->prepared->scene->facet_part[facet] == job->wall.part &&
+           job->view->facing[facet] == job->wall.surface.side;
 }
 
 /* May a facet be used, apart from its visibility? The gain is known only of facets of round walls
@@ -328,10 +329,10 @@ static int sector_is_candidate(const pieces_job *job, const lrcsi_round_sector *
     return uncertain;
 }
 
-/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. A query at a
-   point of the facet decides, so close to the middle of the side that what holds for the side holds
-   for it. */
-static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrcsi_round_side *side)
+/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. Of a uniform
+   facet that is known. On any other a query at a point decides, so close to the middle of the side
+   that what holds for the side holds for it. */
+static int side_state(const pieces_job *job, const lrcsi_occlusion *o, const lrcsi_round_side *side)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t f = side->facet;
@@ -349,13 +350,16 @@ static int side_state(const pieces_job *job, const lrcsi_grid *facets, const lrc
         double middle = 0.5 * (a[i] + b[i]);
         point[i] = middle + from * (c[i] - middle);
     }
-    int answer = lrcsi_query_point(facets, f, point, job->meter);
+    int answer = o->answer[f];
+    if (job->classification->undecided[f]) {
+        answer = lrcsi_query_point(&o->facets, f, point, job->meter);
+    }
     return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : -1;
 }
 
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
    visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
-static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
+static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
                                const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
 {
     const double reach = job->view->prepared->proximity.reach[job->wall.part];
@@ -368,7 +372,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_grid *facets,
             is_on_side(job, side->neighbour)) {
             continue;
         }
-        int state = side_state(job, facets, side);
+        int state = side_state(job, o, side);
         if (state == 0) {
             continue;
         }
@@ -412,7 +416,7 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     for (uint32_t f = part->first_facet; f < end; f++) { /* 1 */
         if (!facet_is_eligible(job, f) || !facet_is_uncertain(job, f) ||
             !lrcsi_round_sector_make(&job->wall, f, &sector) ||
-            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried */
+            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried before */
             !sector_is_candidate(job, &sector) || !sector_has_margins(job, &sector)) {
             continue;
         }
@@ -437,7 +441,7 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     for (uint32_t f = part->first_facet; f < end && any; f++) { /* 3 */
         if (terms[f].known && is_on_side(job, f) &&
             lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
-            sector_add_margins(job, &(*o)->facets, &sector, terms);
+            sector_add_margins(job, *o, &sector, terms);
         }
     }
     return 1;
@@ -458,19 +462,21 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
                       .classification = classification,
                       .meter = meter};
     lrcsi_occlusion *o = NULL;
-    int is_enough = plan->patches; /* memory */
+    int has_memory = 1;
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         terms[f].known = 0;
     }
-    for (uint32_t i = 0; i < scene->part_count; i++) {
-        for (int side = 1; side >= -1 && is_enough; side -= 2) {
-            if (lrcsi_shape_is_round(scene->part[i].kind) && scene->part[i].rigid) {
-                job.wall = lrcsi_round_wall_make(view, plan, i, side);
-                job.wall.derivatives = derivatives;
-                is_enough = (job.wall.brdf.A > 0 && !(job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN)) ||
-                            wall_integrate(&job, &o, work, terms);
+    for (uint32_t i = 0; i < scene->part_count && plan->patches; i++) {
+        if (!lrcsi_shape_is_round(scene->part[i].kind) || !scene->part[i].rigid) {
+            continue;
+        }
+        for (int side = 1; side >= -1 && has_memory; side -= 2) {
+            job.wall = lrcsi_round_wall_make(view, plan, i, side);
+            job.wall.derivatives = derivatives;
+            if (!(job.wall.brdf.A > 0) || job.wall.brdf.s >= LRCSI_PATCH_SLOPE_MIN) {
+                has_memory = wall_integrate(&job, &o, work, terms);
             }
         }
     }

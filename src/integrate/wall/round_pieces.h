@@ -3,12 +3,12 @@
    surface above every point of the view plane: the facets decide only what is visible, and not how
    the surface reflects.
 
-   Let C be a set of sectors of one side of a wall, the outside or the inside, f their facets, U
-   their patches, and f' and U' the projections of these. Let G be what the true surface reflects
-   per unit of projected area (integrate/wall/round_surface.h), W 1 where a facet is visible and 0
-   where it is not, and V the same for the true surface, both as functions on the view plane. The
-   truth of C is T = Int_U' G V. Used is M = sum over f of Int_f' G W, and what is between U' and f'
-   along the border of C.
+   Let C be a set of sectors of one side of one part's wall, the outside or the inside, f their
+   facets, U their patches, and f' and U' the projections of these. Let G be what the true surface
+   reflects per unit of projected area (integrate/wall/round_surface.h), W 1 where a facet is
+   visible and 0 where it is not, and V the same for the true surface, both as functions on the view
+   plane. The truth of C is T = Int_U' G V. Used is M = sum over f of Int_f' G W, and what is
+   between U' and f' along the border of C.
    1. Within the facets of C, V and W differ only on the fractions gain_aligned and loss_aligned of
       visibility/proximity/event_band.c, 5; and on the inside between the projected openings of the
       true surface and of the facets (integrate/wall/round_rim.h).

@@ -19,7 +19,9 @@ enum lrcsi_query_answer {
    outside the facet. */
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *meter);
 
-/* A query at a given point of the facet, rounded; undecided if the facet does not cover it. */
+/* A query at a given point of the facet, rounded; undecided if the facet does not cover it. The
+   lists of the grid must be complete about the facet: it is one of its readers
+   (visibility/index/grid.h). */
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3],
                       lrcsi_meter *meter);
 
