@@ -5,6 +5,8 @@
 
 #include <lrcs/lrcs.h>
 
+#include <string.h>
+
 #include "check.h"
 
 /* Given: models of parts that are files, or NULL. Returned: the prepared scene; *work: the memory that is left, behind it. */
@@ -18,6 +20,7 @@ static inline const lrcs_prepared *recipe_prepare(const lrcs_recipe *recipe,
     const lrcs_prepared *prepared;
     *work = lrcs_work_make(scene_area, sizeof scene_area);
     assert_int_equal(lrcs_scene_build(recipe, models, build, work, scene, NULL), LRCS_OK);
+    memset(run_area, 0xa5, sizeof run_area / 8); /* nothing reads what it has not written */
     *work = lrcs_work_make(run_area, sizeof run_area);
     assert_int_equal(lrcs_prepare_run(scene, work, &prepared), LRCS_OK);
     return prepared;

@@ -383,24 +383,25 @@ static void two_domes_are_a_sphere(void **state)
     static const double turn[3][3][3] = {{{1, 0, 0}, {0, 0.6, 0.8}, {0, -0.8, 0.6}},
                                          {{0.6, 0, 0.8}, {0.64, 0.6, -0.48}, {-0.48, 0.8, 0.36}},
                                          {{0, 1, 0}, {0.28, 0, 0.96}, {0.96, 0, -0.28}}};
+    static const double edges[3] = {0.6, 0.05, -0.27};
     static const lrcs_brdf black = {0, 0, 1, 0};
-    for (int i = 0; i < 18; i++) {
+    for (int i = 0; i < 27; i++) {
         const lrcs_brdf *brdf = &brdfs[i % 3];
-        const double edge = i / 3 % 2 ? 0.05 : 0.6;
+        const double edge = edges[i / 3 % 3];
         const double truth = 4 * PI * lit_integral(brdf, 0.75, 0, edge);
         const double whole = 4 * PI * lit_integral(brdf, 0.75, 0, 0.75);
         double sum[2] = {0, 0}; /* of the halves, the other one black; of their bounds */
         for (int half = 0; half < 2; half++) {
             const lrcs_brdf one[2] = {half ? black : *brdf, half ? *brdf : black};
-            lrcs_result r = two_domes(turn[i / 6], edge, one, 0, 2000);
-            lrcs_result other = two_domes(turn[i / 6], edge, one, 1, 2000);
+            lrcs_result r = two_domes(turn[i / 9], edge, one, 0, 2000);
+            lrcs_result other = two_domes(turn[i / 9], edge, one, 1, 2000);
             check_abs(other.sigma_m2, r.sigma_m2, r.bound_m2 + other.bound_m2);
             sum[0] += r.sigma_m2;
             sum[1] += r.bound_m2;
         }
         check_abs(sum[0], truth, sum[1] + 1e-11 * whole);
         const lrcs_brdf both[2] = {*brdf, *brdf};
-        lrcs_result r = two_domes(turn[i / 6], edge, both, 0, 2000);
+        lrcs_result r = two_domes(turn[i / 9], edge, both, 0, 2000);
         check_abs(r.sigma_m2, truth, r.bound_m2 + 1e-11 * whole);
     }
 }
