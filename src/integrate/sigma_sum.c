@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "integrate/sigma_run.h"
+#include "integrate/wall/round_pieces.h"
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
 

@@ -143,7 +143,7 @@ int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
     double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
-    return cosine > -(turn + LRCSI_VIEW_COS_ERR);
+    return !(cosine <= -(turn + LRCSI_VIEW_COS_ERR)); /* also if the facet has no normal */
 }
 
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)

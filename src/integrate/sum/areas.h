@@ -6,7 +6,7 @@
 #define LRCSI_AREAS_H
 
 #include "integrate/plan/plan.h"
-#include "integrate/wall/round_pieces.h"
+#include "integrate/wall/round_terms.h"
 #include "visibility/raster/visible.h"
 #include "visibility/uniform/query.h"
 

@@ -144,8 +144,9 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
 }
 
 /* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets
-   under it meet a band of their own part (visibility/proximity/event_band.c, 3). 2. Which facets
-   are under which sides. 3. The margins of the sides. */
+   under it meet a band of their own part (visibility/proximity/event_band.c, 3).
+   2. Which facets are under which sides.
+   3. The margins of the sides. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
                         const lrcsi_visible_area *visible, lrcs_work *work,
                         lrcsi_round_terms *terms)
