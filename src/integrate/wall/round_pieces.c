@@ -378,12 +378,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
         }
         (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* it is known */
         if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
-            terms[to].glint += margin.sum.glint;
-            terms[to].diffuse += margin.sum.diffuse;
-            terms[to].glint_u += margin.sum.glint_u;
-            terms[to].diffuse_log += margin.sum.diffuse_log;
-            terms[to].rounding += margin.sum.rounding;
-            terms[to].own += margin.sum.remainder;
+            lrcsi_round_margin_add(&margin, 1, &terms[to]);
         } else {
             terms[to].own += margin.largest;
         }

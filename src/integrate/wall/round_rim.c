@@ -132,12 +132,7 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
     lrcsi_round_terms *to = &terms[side->facet];
     if (lrcsi_round_margin_make(job->wall, at, &margin) && !away && side->is_certain &&
         side->is_summed && side->is_visible) {
-        to->glint -= margin.sum.glint;
-        to->diffuse -= margin.sum.diffuse;
-        to->glint_u -= margin.sum.glint_u;
-        to->diffuse_log -= margin.sum.diffuse_log;
-        to->rounding += margin.sum.rounding;
-        to->own += margin.sum.remainder;
+        lrcsi_round_margin_add(&margin, -1, to);
     } else {
         to->own += side->bound * margin.area * LRCSI_OUTWARD_NANO;
     }

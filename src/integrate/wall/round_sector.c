@@ -280,6 +280,16 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
     return 0;
 }
 
+void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to)
+{
+    to->glint += sign * margin->sum.glint;
+    to->diffuse += sign * margin->sum.diffuse;
+    to->glint_u += sign * margin->sum.glint_u;
+    to->diffuse_log += sign * margin->sum.diffuse_log;
+    to->rounding += margin->sum.rounding;
+    to->own += margin->sum.remainder;
+}
+
 /* --- sectors ---------------------------------------------------------------------------------- */
 
 /* The vertex of the sector's facets that stands for a corner of its patch. */

@@ -7,6 +7,7 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/round_surface.h"
+#include "integrate/wall/round_terms.h"
 #include "mesh/shape/revolution.h"
 
 /* One side of the wall of a part, in a view. */
@@ -80,5 +81,8 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
    inclination to the view plane may exceed 8 above it. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin);
+
+/* Adds the integral over a margin to what a facet adds, or subtracts it (sign -1). */
+void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to);
 
 #endif
