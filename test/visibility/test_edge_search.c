@@ -52,8 +52,9 @@ static double facet_distance(uint32_t facet, const lrcsi_edge *e)
 }
 
 /* Marks the events that a search finds. */
-static void mark_found(const lrcsi_grid *grid, lrcsi_edge_search *search)
+static void mark_found(const lrcsi_grid *grid, const lrcsi_edge_search *search)
 {
+    int line = 0;
     lrcsi_grid_walk walk = search->rows;
     lrcsi_grid_row row;
     memset(found, 0, sizeof found);
@@ -62,8 +63,8 @@ static void mark_found(const lrcsi_grid *grid, lrcsi_edge_search *search)
         for (uint32_t i = items.from; i < items.to; i++) {
             const lrcsi_edge *e =
                 &view.prepared->topology.edge[classification.events.edge[grid->item[i]]];
-            found[grid->item[i]] |=
-                !lrcsi_edge_search_excludes(search, view.point[e->low].x, view.point[e->high].x);
+            found[grid->item[i]] |= !lrcsi_edge_search_excludes(search, view.point[e->low].x,
+                                                                view.point[e->high].x, &line);
         }
     }
 }

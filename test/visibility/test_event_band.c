@@ -63,6 +63,15 @@ static void outline_areas(double *outside, double *inside)
     check_abs(around, 2 * LRCS_PI, 1e-9); /* the facets' outline goes round once */
 }
 
+/* Is it an event edge that the search for a facet does not exclude? */
+static int is_near(const lrcsi_edge_search *where, uint32_t event)
+{
+    int line = 0;
+    const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[event]];
+    return !lrcsi_edge_search_excludes(where, view.point[edge->low].x, view.point[edge->high].x,
+                                       &line);
+}
+
 /* Adds up the bands of both facets of the plate, as areas in projection. */
 static void band_areas(int correspondence, double *gain, double *loss)
 {
@@ -71,10 +80,12 @@ static void band_areas(int correspondence, double *gain, double *loss)
         if (scene.facet_part[f] != PLATE) {
             continue;
         }
-        lrcsi_facet_search search = lrcsi_facet_search_make(&bands, f);
+        const lrcsi_edge_search where = lrcsi_band_search(&bands, f);
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
         for (uint32_t e = 0; e < bands.events.count; e++) {
             lrcsi_event_band band;
-            int found = lrcsi_event_band_make(&bands, f, e, correspondence, &search, &band);
+            int found =
+                is_near(&where, e) && lrcsi_event_band_make(&bands, &at, e, correspondence, &band);
             assert_true(!found || bands.events.part[e] == BALL); /* it has no inside to be seen */
             if (found) {
                 assert_true(band.gain >= 0 && band.loss >= 0 && band.area <= 1);
@@ -117,10 +128,11 @@ static void check_sides(int near_diagonal)
         if (scene.facet_part[f] != PLATE) {
             continue;
         }
-        lrcsi_facet_search search = lrcsi_facet_search_make(&bands, f);
+        const lrcsi_edge_search where = lrcsi_band_search(&bands, f);
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
         unsigned sides = 0;
         for (uint32_t e = 0; e < bands.events.count; e++) {
-            sides |= lrcsi_event_sides(&bands, f, e, &search);
+            sides |= is_near(&where, e) ? lrcsi_event_sides(&bands, &at, e) : 0;
         }
         for (int k = 0; k < 3; k++) {
             const double *a = lrcsi_prepared_corner(view.prepared, f, k);

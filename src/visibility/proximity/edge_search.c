@@ -38,7 +38,7 @@ lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_gri
     const double wide = near + lrcsi_edge_rectangle_facet_err(view, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
-    lrcsi_edge_search search = {.first = 0};
+    lrcsi_edge_search search;
     lrcsi_view_bounds(view, corner, 3, search.low, search.high);
     for (int k = 0; k < 3; k++) {
         search.low[k] -= wide;

@@ -12,7 +12,6 @@ typedef struct lrcsi_edge_search {
     double low[3], high[3];
     lrcsi_grid_walk rows;           /* over the buckets that may list such edges */
     double outward[3][2], limit[3]; /* beyond line k outward[k] . x > limit[k], errors included */
-    int first;                      /* the line to try first: the one that excluded the last edge */
 } lrcsi_edge_search;
 
 /* For edges at a distance of at most `near` from a facet. */
@@ -27,17 +26,18 @@ static inline double lrcsi_edge_search_height(const lrcsi_edge_search *search, i
            err * lrcsi_view_point_err(x);
 }
 
-/* Is the whole edge a b, in view coordinates, beyond one of the lines? */
-static inline int lrcsi_edge_search_excludes(lrcsi_edge_search *search, const double a[3],
-                                             const double b[3])
+/* Is the whole edge a b, in view coordinates, beyond one of the lines? *line is tried first; it
+   becomes the line that excludes the edge, and is likely to exclude the next one. */
+static inline int lrcsi_edge_search_excludes(const lrcsi_edge_search *search, const double a[3],
+                                             const double b[3], int *line)
 {
-    int side = search->first;
+    int side = *line;
     for (int i = 0; i < 3; i++) {
         if (lrcsi_edge_search_height(search, side, a, -LRCSI_EDGE_RECTANGLE_ERR) >
                 search->limit[side] &&
             lrcsi_edge_search_height(search, side, b, -LRCSI_EDGE_RECTANGLE_ERR) >
                 search->limit[side]) {
-            search->first = side;
+            *line = side;
             return 1;
         }
         side = side < 2 ? side + 1 : 0;

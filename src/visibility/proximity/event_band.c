@@ -124,29 +124,43 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
     return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
 }
 
-lrcsi_facet_search lrcsi_facet_search_make(const lrcsi_event_bands *bands, uint32_t facet)
+lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet)
 {
     const lrcs_prepared *p = bands->view->prepared;
-    const uint32_t part = facet_part(bands, facet);
-    double near = 2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
-    return (lrcsi_facet_search){
-        .where = lrcsi_edge_search_make(bands->view, &bands->events.grid, facet, near),
-        .inside = bands->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part),
-        .lateral = -1};
+    double reach = p->proximity.reach[facet_part(bands, facet)];
+    double near = 2 * (reach + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
+    return lrcsi_edge_search_make(bands->view, &bands->events.grid, facet, near);
+}
+
+int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)
+{
+    return bands->view->facing[facet] < 0 &&
+           !lrcsi_proximity_closed(bands->view->prepared, facet_part(bands, facet));
+}
+
+lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t facet,
+                                       const lrcsi_edge_search *where)
+{
+    lrcsi_band_facet at = {.facet = facet,
+                           .where = where,
+                           .inside = lrcsi_band_sees_inside(bands, facet),
+                           .displacement =
+                               lrcsi_proximity_displacement(bands->view->prepared, facet)};
+    at.lateral = lrcsi_displacement_across(&at.displacement, bands->view->unit);
+    return at;
 }
 
 /* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
    or without reach, and for parts with one opening if their boxes do not contain points of the
    facet's patch. */
-static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_facet_search *search,
-                          uint32_t part)
+static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t part)
 {
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_box *box = &bands->box[part];
     int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
     int apart = 0;
     for (int k = 0; k < 3; k++) {
-        apart |= search->where.low[k] > box->high[k] || search->where.high[k] < box->low[k];
+        apart |= at->where->low[k] > box->high[k] || at->where->high[k] < box->low[k];
     }
     return openings == 0 || (openings == 1 && apart);
 }
@@ -160,27 +174,30 @@ static int rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
                                                  bands->view->facing[on.facet[0]]);
 }
 
-/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
-   event edge; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
-static void outline_fractions(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                              double delta, double *gain, double *loss)
+static lrcsi_outline_areas event_areas(const lrcsi_event_bands *bands, uint32_t event)
 {
     const lrcsi_view *view = bands->view;
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
     const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
+    return rim_is_inside(bands, event)
+               ? (lrcsi_outline_areas){0, 0, 0}
+               : lrcsi_outline_areas_make(outline, view->point[edge->low].x,
+                                          view->point[edge->high].x, bands->events.side[event]);
+}
+
+/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
+   event edge; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
+static void outline_fractions(const lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
+                              double delta, double *gain, double *loss)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
     double projected = lrcsi_view_projected(view, facet);
     double whole = 0.5 * view->prepared->normal[facet].length;
-    lrcsi_outline_areas *areas = &bands->areas[event];
+    const lrcsi_outline_areas *areas = &bands->areas[event];
     *gain = *loss = HUGE_VAL;
     if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
         return;
-    }
-    if (areas->gain < 0) {
-        const double *a = view->point[edge->low].x;
-        const double *b = view->point[edge->high].x;
-        *areas = rim_is_inside(bands, event)
-                     ? (lrcsi_outline_areas){0, 0, 0}
-                     : lrcsi_outline_areas_make(outline, a, b, bands->events.side[event]);
     }
     *gain = (areas->gain + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
     *loss = (areas->loss + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
@@ -189,19 +206,18 @@ static void outline_fractions(lrcsi_event_bands *bands, uint32_t facet, uint32_t
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
    component perpendicular to the edge counts. */
-static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands, uint32_t facet,
-                                            uint32_t event, int correspondence,
-                                            const lrcsi_facet_search *search, double slack,
-                                            double wider)
+static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
+                                            const lrcsi_band_facet *at, uint32_t event,
+                                            int correspondence, double slack, double wider)
 {
     const lrcsi_topology *topology = &bands->view->prepared->topology;
     lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
-        bands->view, facet, &topology->edge[bands->events.edge[event]], slack);
+        bands->view, at->facet, &topology->edge[bands->events.edge[event]], slack);
     if (box.has_sides && correspondence == LRCSI_MAPPED) {
-        double across = lrcsi_displacement_along(&search->displacement, box.across) +
-                        box.rotation_err * search->lateral;
+        double across = lrcsi_displacement_along(&at->displacement, box.across) +
+                        box.rotation_err * at->lateral;
         across =
-            event_slack(bands, facet, event, LRCSI_MAPPED, lrcsi_min(across, search->lateral)) +
+            event_slack(bands, at->facet, event, LRCSI_MAPPED, lrcsi_min(across, at->lateral)) +
             wider;
         box.half_width = lrcsi_min(across, slack) + box.err;
     }
@@ -209,31 +225,26 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands, uint
 }
 
 /* Finds the fractions near an event edge:
-   1. none if it is too far away, or an edge of the facet's own part of which it sees no inside;
+   1. none if it is an edge of the facet's own part, of which the laser sees no inside;
    2. none but what a proof leaves open if its part is behind the facet's;
    3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
    4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
       the inner side as gain, on the outer side as loss;
    5. but no more than the area between outlines, where the part is in front of the facet.
    Returns 0 if there are none. */
-int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                          int correspondence, lrcsi_facet_search *search, lrcsi_event_band *f)
+int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                          int correspondence, lrcsi_event_band *f)
 {
+    const uint32_t facet = at->facet;
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
     int is_own = bands->events.part[event] == facet_part(bands, facet);
     int side = is_own ? 0 : bands->events.side[event];
     *f = (lrcsi_event_band){.unproved = 0};
-    if ((is_own && !search->inside) ||
-        lrcsi_edge_search_excludes(&search->where, bands->view->point[edge->low].x,
-                                   bands->view->point[edge->high].x)) {
+    if (is_own && !at->inside) {
         return 0; /* 1 */
     }
-    if (search->lateral < 0) {
-        search->displacement = lrcsi_proximity_displacement(p, facet);
-        search->lateral = lrcsi_displacement_across(&search->displacement, bands->view->unit);
-    }
-    double slack = event_slack(bands, facet, event, correspondence, search->lateral);
+    double slack = event_slack(bands, facet, event, correspondence, at->lateral);
     double err = 0;
     if (!(slack > 0)) {
         return 0;
@@ -246,7 +257,7 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
                                                      bands->events.part[event], &err, &f->unproved);
     slack += err;
     lrcsi_edge_rectangle box =
-        event_rectangle(bands, facet, event, correspondence, search, slack, err); /* 3 */
+        event_rectangle(bands, at, event, correspondence, slack, err); /* 3 */
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
     if (slice.count == 0 ||
         (!is_own &&
@@ -270,12 +281,12 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
     }
     lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
     lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
-    if (gain_is_inside(bands, search, bands->events.part[event])) {
+    if (gain_is_inside(bands, at, bands->events.part[event])) {
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
     if (in_front) { /* 5 */
-        double delta = (correspondence == LRCSI_ALIGNED ? 0 : search->lateral) + err;
+        double delta = (correspondence == LRCSI_ALIGNED ? 0 : at->lateral) + err;
         double gain;
         double loss;
         outline_fractions(bands, facet, event, delta, &gain, &loss);
@@ -288,9 +299,9 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t eve
     return 1;
 }
 
-unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                           lrcsi_facet_search *search)
+unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event)
 {
+    const uint32_t facet = at->facet;
     const lrcsi_view *view = bands->view;
     const lrcs_prepared *p = view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
@@ -300,12 +311,8 @@ unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t ev
     double slack = lrcsi_proximity_slack_aligned(p, part);
     unsigned sides = 0;
     double unproved;
-    if (lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
-                                   view->point[edge->high].x)) {
-        return 0;
-    }
     if (part == own) {
-        if (!search->inside || !rim_may_face(bands, event)) {
+        if (!at->inside || !rim_may_face(bands, event)) {
             return 0;
         }
         slack = p->proximity.hausdorff[own] + LRCSI_PROXIMITY_ERR;
@@ -355,7 +362,7 @@ size_t lrcsi_event_bands_need(const lrcs_prepared *p)
 }
 
 /* Made are: 1. the boxes of parts; 2. their outlines and convex bodies; 3. their event edges, in a
-   grid. */
+   grid; 4. the areas between outlines along them. */
 int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                            lrcsi_event_bands *bands)
 {
@@ -373,7 +380,7 @@ int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work
     }
     bands->areas = lrcsi_work_take(work, bands->events.count, sizeof *bands->areas);
     for (uint32_t i = 0; i < bands->events.count && bands->areas; i++) {
-        bands->areas[i].gain = -1;
+        bands->areas[i] = event_areas(bands, i);
     }
     return bands->areas ? LRCS_OK : LRCS_E_MEMORY;
 }

@@ -20,7 +20,7 @@ typedef struct lrcsi_event_bands {
     lrcsi_part_orders orders;
     lrcsi_box *box;             /* part: that of its facets in the view, if the part is curved */
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
-                                   and of its facets; gain < 0: not computed yet */
+                                   and of its facets */
 } lrcsi_event_bands;
 
 /* Upper bound of the bytes for it. It stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY;
@@ -35,15 +35,23 @@ enum lrcsi_correspondence {
     LRCSI_ALIGNED /* the one with the same projection: event_band.c, 5 */
 };
 
-/* The search for event edges near a facet. */
-typedef struct lrcsi_facet_search {
-    lrcsi_edge_search where;
-    int inside; /* the laser may see the facet through an opening of its own part */
-    lrcsi_displacement displacement;
-    double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
-} lrcsi_facet_search;
+/* Where to look for the event edges that may be near a facet. */
+lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
 
-lrcsi_facet_search lrcsi_facet_search_make(const lrcsi_event_bands *bands, uint32_t facet);
+/* What the bands of a facet depend on, beside the event edges. */
+typedef struct lrcsi_band_facet {
+    uint32_t facet;
+    const lrcsi_edge_search *where; /* lrcsi_band_search */
+    int inside;                     /* lrcsi_band_sees_inside */
+    lrcsi_displacement displacement;
+    double lateral; /* lrcsi_displacement_across the line of sight */
+} lrcsi_band_facet;
+
+lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t facet,
+                                       const lrcsi_edge_search *where);
+
+/* May the laser see a facet through an opening of its own part? */
+int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet);
 
 /* The fractions of a facet near an event edge. */
 typedef struct lrcsi_event_band {
@@ -52,13 +60,14 @@ typedef struct lrcsi_event_band {
     double unproved; /* where a proof about the edge's part does not hold */
 } lrcsi_event_band;
 
-/* Given also: a lrcsi_correspondence. Returns 0 if there are none. */
-int lrcsi_event_band_make(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                          int correspondence, lrcsi_facet_search *search, lrcsi_event_band *band);
+/* The band about an event edge that the search does not exclude. Given also: a
+   lrcsi_correspondence. Returns 0 if there is none. */
+int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                          int correspondence, lrcsi_event_band *band);
 
-/* The sides of a facet near which an event edge of another part passes: bit k stands for the side
-   from corner k to k + 1. Edges of a part behind the facet's own do not matter. */
-unsigned lrcsi_event_sides(lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                           lrcsi_facet_search *search);
+/* The sides of a facet near which an event edge passes that the search does not exclude: bit k
+   stands for the side from corner k to k + 1. Edges of a part behind the facet's own do not
+   matter. */
+unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event);
 
 #endif

@@ -97,7 +97,8 @@ typedef struct band_job {
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
-    lrcsi_marks considered;     /* events: those that were considered for the facet */
+    lrcsi_marks considered;     /* events: those that the search for the facet has met */
+    uint32_t *near;             /* events: those near the facet */
     lrcsi_proximity_band *band; /* to be filled */
 } band_job;
 
@@ -124,75 +125,94 @@ static void add_unproved(lrcsi_proximity_band *band, uint32_t facet, uint32_t ot
     }
 }
 
-/* Adds the fractions near an event edge, for one of the two correspondences of points of the facet
-   and of the true surface. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, int correspondence,
-                      lrcsi_facet_search *search)
+/* Lists the event edges near a facet: job->near[0..*count). Returns 0 if the limit of steps is
+   reached. */
+static int find_events(band_job *job, const lrcsi_edge_search *where, uint32_t *count)
 {
-    lrcsi_proximity_band *band = job->band;
-    lrcsi_event_band near;
-    if (correspondence == LRCSI_ALIGNED && band->free_sides[facet] != 0) {
-        band->free_sides[facet] &=
-            (unsigned char)~lrcsi_event_sides(&job->bands, facet, event, search);
-    }
-    if (!lrcsi_event_band_make(&job->bands, facet, event, correspondence, search, &near)) {
-        return;
-    }
-    if (correspondence == LRCSI_ALIGNED) {
-        band->gain_aligned[facet] += near.gain + near.unproved;
-        band->loss_aligned[facet] += near.loss + near.unproved;
-        return;
-    }
-    const uint32_t part = job->bands.events.part[event];
-    add_unproved(band, facet, part, near.unproved);
-    if (near.area > 0) {
-        band->parts[facet] |= lrcsi_part_set_of(part);
-        band->mismatch[facet] += near.area;
-        band->gain[facet] += near.gain;
-        band->loss[facet] += near.loss;
-        band->rows[facet] += near.rows;
-    }
-}
-
-/* Adds the fractions near all event edges. Returns 0 if the limit of steps is reached. */
-static int add_events(band_job *job, uint32_t facet, int correspondence, lrcsi_facet_search *search)
-{
-    const lrcsi_grid *grid = &job->bands.events.grid;
-    lrcsi_grid_walk walk = search->where.rows;
+    const lrcsi_event_bands *bands = &job->bands;
+    const lrcsi_grid *grid = &bands->events.grid;
+    lrcsi_grid_walk walk = where->rows;
     lrcsi_grid_row row;
-    lrcsi_marks_clear(&job->considered, job->bands.events.count);
+    int line = 0;
+    *count = 0;
+    lrcsi_marks_clear(&job->considered, bands->events.count);
     while (lrcsi_grid_walk_next(&walk, &row)) {
         const lrcsi_grid_items items = lrcsi_grid_row_items(grid, row.y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             return 0;
         }
         for (uint32_t i = items.from; i < items.to; i++) {
-            uint32_t event = grid->item[i];
-            if (correspondence == LRCSI_MAPPED && job->band->gain[facet] >= 1 &&
-                job->band->loss[facet] >= 1) {
-                job->band->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
-                return 1;
+            const uint32_t event = grid->item[i];
+            if (lrcsi_marked(&job->considered, event)) {
+                continue;
             }
-            if (!lrcsi_marked(&job->considered, event)) {
-                job->considered.entry[event] = job->considered.number;
-                add_event(job, facet, event, correspondence, search);
+            job->considered.entry[event] = job->considered.number;
+            const lrcsi_edge *edge = &job->view->prepared->topology.edge[bands->events.edge[event]];
+            if (!lrcsi_edge_search_excludes(where, job->view->point[edge->low].x,
+                                            job->view->point[edge->high].x, &line)) {
+                job->near[(*count)++] = event;
             }
         }
     }
     return 1;
 }
 
+/* Adds the fractions near these event edges, where points correspond by the map. */
+static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count)
+{
+    lrcsi_proximity_band *band = job->band;
+    const uint32_t facet = at->facet;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t part = job->bands.events.part[job->near[i]];
+        lrcsi_event_band near;
+        if (band->gain[facet] >= 1 && band->loss[facet] >= 1) {
+            band->parts[facet] = LRCSI_PART_SET_ALL; /* the other edges are not considered */
+            return;
+        }
+        if (!lrcsi_event_band_make(&job->bands, at, job->near[i], LRCSI_MAPPED, &near)) {
+            continue;
+        }
+        add_unproved(band, facet, part, near.unproved);
+        if (near.area > 0) {
+            band->parts[facet] |= lrcsi_part_set_of(part);
+            band->mismatch[facet] += near.area;
+            band->gain[facet] += near.gain;
+            band->loss[facet] += near.loss;
+            band->rows[facet] += near.rows;
+        }
+    }
+}
+
+/* Adds the fractions near these event edges, where points are aligned, and finds the free sides. */
+static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t count)
+{
+    lrcsi_proximity_band *band = job->band;
+    const uint32_t facet = at->facet;
+    for (uint32_t i = 0; i < count; i++) {
+        lrcsi_event_band near;
+        if (band->free_sides[facet] != 0) {
+            band->free_sides[facet] &=
+                (unsigned char)~lrcsi_event_sides(&job->bands, at, job->near[i]);
+        }
+        if (lrcsi_event_band_make(&job->bands, at, job->near[i], LRCSI_ALIGNED, &near)) {
+            band->gain_aligned[facet] += near.gain + near.unproved;
+            band->loss_aligned[facet] += near.loss + near.unproved;
+        }
+    }
+}
+
 /* Begins the fractions for aligned points, unless they cannot be known. The facet must lie on a
    round wall and show the laser a side that may be visible, and every other part that is near it
    must be in front of its own part or behind it; what these proofs leave open is counted. */
-static int begin_aligned(band_job *job, uint32_t facet, int inside)
+static int begin_aligned(band_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t own = p->scene->facet_part[facet];
     const lrcsi_part_set near = p->proximity.near[facet];
     double open = 0;
     if (!lrcsi_proximity_on_round_wall(p, facet) || !p->scene->part[own].rigid ||
-        !(job->view->facing[facet] > 0 || (inside && lrcsi_view_reflects(job->view, facet)))) {
+        !(job->view->facing[facet] > 0 ||
+          (lrcsi_band_sees_inside(&job->bands, facet) && lrcsi_view_reflects(job->view, facet)))) {
         return 0;
     }
     for (uint32_t i = 0; i < p->scene->part_count && near != 0; i++) {
@@ -217,25 +237,34 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
                                p->proximity.reach[p->scene->facet_part[facet]] > 0);
 }
 
+/* 1. Nothing is near a flat facet that no curved part overlaps in projection;
+   2. event edges near the facet, listed once for both correspondences of points;
+   3. grazing incidence. */
 static void facet_fractions(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[p->scene->facet_part[facet]];
-    lrcsi_facet_search search = lrcsi_facet_search_make(&job->bands, facet);
-    if (reach == 0 &&
-        (search.where.low[0] > job->curved.high[0] || search.where.low[1] > job->curved.high[1] ||
-         search.where.high[0] < job->curved.low[0] || search.where.high[1] < job->curved.low[1])) {
+    const lrcsi_edge_search where = lrcsi_band_search(&job->bands, facet);
+    if (reach == 0 && /* 1 */
+        (where.low[0] > job->curved.high[0] || where.low[1] > job->curved.high[1] ||
+         where.high[0] < job->curved.low[0] || where.high[1] < job->curved.low[1])) {
         return;
     }
-    if (!add_events(job, facet, LRCSI_MAPPED, &search)) {
+    uint32_t count; /* 2 */
+    const int found = find_events(job, &where, &count);
+    const int aligned = begin_aligned(job, facet);
+    if (!found) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
-    }
-    if (begin_aligned(job, facet, search.inside) &&
-        !add_events(job, facet, LRCSI_ALIGNED, &search)) {
         job->band->gain_aligned[facet] = -1;
+    } else if (count > 0) {
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&job->bands, facet, &where);
+        add_mapped(job, &at, count);
+        if (aligned) {
+            add_aligned(job, &at, count);
+        }
     }
-    if (reach > 0 &&
+    if (reach > 0 && /* 3 */
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
@@ -282,7 +311,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
-    return lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(uint32_t)));
+    return lrcsi_work_add(need,
+                          lrcsi_work_blocks(2, lrcsi_proximity_events_most(p), sizeof(uint32_t)));
 }
 
 /* Computes all fractions:
@@ -301,7 +331,8 @@ static int all_fractions(band_job *job, lrcs_work *work)
     }
     job->considered.entry =
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
-    if (!job->considered.entry) {
+    job->near = lrcsi_work_take(work, job->bands.events.count, sizeof *job->near);
+    if (!job->considered.entry || !job->near) {
         return LRCS_E_MEMORY;
     }
     job->curved = lrcsi_box_empty();
