@@ -167,7 +167,7 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
     /* 3. View coordinates, and which facets are undecided, unless samples alone decide. */
     status = lrcsi_view_project(work, &run->view);
     if (status == LRCS_OK && request->last >= LRCSI_SIGMA_CLASSIFY && !run->plan.samples_only) {
-        status = lrcsi_sigma_classify(run, &run->meter);
+        status = lrcsi_sigma_classify(run, &run->meter, 0);
     }
     if (status != LRCS_OK || request->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;

@@ -144,7 +144,7 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
     if (last.method == LRCS_METHOD_EXACT && last.end == LRCSI_ATTEMPT_FOUND) {
         return 0;
     }
-    if (last.end == LRCSI_ATTEMPT_NO_MEMORY && last.limit_ns == HUGE_VAL) { /* 1 */
+    if (last.end == LRCSI_ATTEMPT_NO_MEMORY && !lrcsi_attempt_is_limited(&last)) { /* 1 */
         attempts->current = attempt_raster(run, plan->size, NO_MEMORY_REASON);
         attempts->current.samples_only = 0;
         attempts->current.fallback = 1;
@@ -171,10 +171,10 @@ void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
     lrcsi_attempt *attempt = &attempts->current;
     run->meter.taken = attempt->meter.taken;
-    if (attempt->limit_ns == HUGE_VAL) {
+    if (!lrcsi_attempt_is_limited(attempt)) {
         run->meter.spent = attempt->meter.spent;
-    } else if (attempt->end == LRCSI_ATTEMPT_FOUND && attempt->meter.spent) {
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
+    } else if (attempt->end == LRCSI_ATTEMPT_FOUND && lrcsi_attempt_is_over_limit(attempt)) {
+        attempt->end = LRCSI_ATTEMPT_ABANDONED; /* while it integrated */
     }
     if (attempt->end != LRCSI_ATTEMPT_FOUND) {
         run->work->used = attempt->mark;

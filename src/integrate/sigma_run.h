@@ -5,6 +5,8 @@
 #ifndef LRCSI_SIGMA_RUN_H
 #define LRCSI_SIGMA_RUN_H
 
+#include <math.h>
+
 #include "integrate/plan/cost.h"
 #include "integrate/sum/total.h"
 
@@ -79,6 +81,17 @@ typedef struct lrcsi_attempt {
     size_t mark; /* of the work area, before what an attempt leaves in it that found nothing */
 } lrcsi_attempt;
 
+static inline int lrcsi_attempt_is_limited(const lrcsi_attempt *attempt)
+{
+    return attempt->limit_ns < HUGE_VAL;
+}
+
+/* Has it taken all steps of a limit that is its own, not the run's? */
+static inline int lrcsi_attempt_is_over_limit(const lrcsi_attempt *attempt)
+{
+    return lrcsi_attempt_is_limited(attempt) && attempt->meter.spent;
+}
+
 /* The attempts of a run so far. Before the first: zeros, and the cost. */
 typedef struct lrcsi_attempts {
     lrcsi_attempt current; /* between attempts: the last one */
@@ -113,8 +126,9 @@ void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
 /* --- sigma_search.c --------------------------------------------------------------------------- */
 
 /* Finds which facets are undecided, and the proximity band if the plan needs it; once per pose.
-   Status: as lrcs_sigma_run. */
-int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter);
+   If steps run out, what is undecided for lack of them stays undecided, unless the caller retries
+   with more steps: then nothing is kept. Status: as lrcs_sigma_run. */
+int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries);
 
 /* Makes the attempt attempts->current: finds visible areas. Returned: how it ended and, if they
    were found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended;

@@ -2,14 +2,12 @@
 /* Finds the visible areas of a pose in which shadows are searched for, by one attempt: clipping, or
    one raster. Which attempts there are, and in which order, is decided in sigma_attempt.c; sums
    over the areas are computed in sigma_sum.c. */
-#include <math.h>
-
 #include "base/progress.h"
 #include "base/work.h"
 #include "integrate/sigma_run.h"
 #include "visibility/raster/preview.h"
 
-int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
+int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries)
 {
     if (run->classified) {
         return LRCS_OK;
@@ -21,7 +19,7 @@ int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter)
         status = status == LRCS_OK ? lrcsi_masked_band_make(&run->band, run->work, &run->masked)
                                    : status;
     }
-    run->classified = status == LRCS_OK;
+    run->classified = status == LRCS_OK && !(retries && meter->spent);
     return status;
 }
 
@@ -59,16 +57,9 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
    Any failure but for lack of memory is one of the run. */
 static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
-    const int limited = attempt->limit_ns < HUGE_VAL;
-    const int classified = run->classified;
-    attempt->mark = run->work->used;
-    int status = lrcsi_sigma_classify(run, &attempt->meter);
-    if (status == LRCS_OK && limited && attempt->meter.spent) {
-        run->classified = classified; /* what is not complete is made anew */
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
-        return LRCS_OK;
-    }
-    if (status == LRCS_OK) {
+    const int limited = lrcsi_attempt_is_limited(attempt);
+    int status = lrcsi_sigma_classify(run, &attempt->meter, limited);
+    if (status == LRCS_OK && run->classified) {
         attempt->mark = run->work->used;
         if (limited &&
             lrcsi_cost_clip(cost, run->classification.undecided_count) > attempt->limit_ns) {
@@ -77,11 +68,12 @@ static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_at
         }
         status = find_by_clipping(run, &attempt->meter);
     }
-    if (status == LRCS_OK && limited && attempt->meter.spent) {
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
-    } else if (status == LRCS_E_MEMORY) {
+    if (status == LRCS_E_MEMORY) {
         attempt->end = LRCSI_ATTEMPT_NO_MEMORY;
         return LRCS_OK;
+    }
+    if (lrcsi_attempt_is_over_limit(attempt)) {
+        attempt->end = LRCSI_ATTEMPT_ABANDONED;
     }
     return status;
 }
@@ -98,7 +90,7 @@ static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempts *attempts)
     int undecided = 0;
     int status = LRCS_OK;
     if (!attempt->samples_only && !attempts->decided) {
-        status = lrcsi_sigma_classify(run, &attempt->meter);
+        status = lrcsi_sigma_classify(run, &attempt->meter, 0);
         attempts->mark = run->work->used;
         status = status == LRCS_OK
                      ? lrcsi_decisions_make(&run->classification, run->work, &attempts->decisions)
@@ -138,5 +130,6 @@ int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
         return find_by_drawing(run, attempts);
     }
     lrcsi_sigma_release_decisions(run, attempts);
+    attempt->mark = run->work->used;
     return search_by_clipping(run, &attempts->cost, attempt);
 }
