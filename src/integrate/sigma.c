@@ -21,6 +21,7 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
+#include "integrate/wall/round_rim.h"
 #include "visibility/raster/preview.h"
 
 lrcs_run_options lrcs_run_options_default(void)
@@ -77,6 +78,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_terms)));
+        need = lrcsi_work_add(need, lrcsi_round_rim_need(prepared));
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));

@@ -25,8 +25,7 @@ typedef struct lrcsi_occlusion {
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
 /* Makes the data for all facets. They stay in the work area, and so does *o itself, which is too
-   large for the stack. Steps are taken from the meter; NULL:
-   no limit.
+   large for the stack. Steps are taken from the meter; NULL: no limit.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                        lrcsi_occlusion **o);
@@ -34,9 +33,9 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in
    the frame of o->single.target, which `open` has made if there may be pieces (lrcsi_target_weights
-   leads back to the facet). An entirely visible
-   facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
-   pieces. The area in which the union of the pieces differs from the visible region is at most
+   leads back to the facet). An entirely visible facet is one piece, its own triangle; a facet of
+   which nothing is known to be visible has no pieces. The area in which the union of the pieces
+   differs from the visible region is at most
        high - low + lrcsi_occlude_piece_err,
    where high and low are those of the returned area, and the last term, for when `next` has
    returned 0, is due to the rounding of the corners, 20 u reach perimeter with those of

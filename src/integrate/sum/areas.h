@@ -7,7 +7,7 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/round_terms.h"
-#include "visibility/raster/visible.h"
+#include "visibility/base/visible_area.h"
 #include "visibility/uniform/query.h"
 
 /* answer[facet] is LRCSI_QUERY_VISIBLE or LRCSI_QUERY_HIDDEN if all or nothing of the facet is

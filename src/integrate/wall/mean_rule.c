@@ -24,6 +24,15 @@ const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES] = {
      {0.181341891689180991482, 0.156853322938943643668, 0.111190517226687235272,
       0.050614268145188129576}}};
 
+int lrcsi_mean_rule_choose(const double error[LRCSI_MEAN_RULES], double target)
+{
+    int n = 0;
+    while (n + 1 < LRCSI_MEAN_RULES && !(error[n] <= target)) {
+        n++;
+    }
+    return n;
+}
+
 int lrcsi_mean_rule_points(const lrcsi_mean_rule *rule, double x[LRCSI_MEAN_RULE_POINTS],
                            double weight[LRCSI_MEAN_RULE_POINTS])
 {

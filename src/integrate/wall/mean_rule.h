@@ -24,6 +24,10 @@ typedef struct lrcsi_mean_rule {
 #define LRCSI_MEAN_RULES 6
 extern const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES];
 
+/* The index of the rule with the fewest points whose error, of those given, is at most the target;
+   of the last rule if there is none. */
+int lrcsi_mean_rule_choose(const double error[LRCSI_MEAN_RULES], double target);
+
 /* Writes the points and weights of a rule, and returns how many there are. */
 int lrcsi_mean_rule_points(const lrcsi_mean_rule *rule, double x[LRCSI_MEAN_RULE_POINTS],
                            double weight[LRCSI_MEAN_RULE_POINTS]);

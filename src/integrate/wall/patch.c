@@ -283,10 +283,7 @@ static const lrcsi_mean_rule *rule_choose(const patch_frame *f, const lrcs_brdf 
             best[n] = lrcsi_min(best[n], bound / ((2 * k + 1) * (1 - q)));
         }
     }
-    int n = 0;
-    while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
-        n++;
-    }
+    const int n = lrcsi_mean_rule_choose(best, target);
     *error = LRCSI_OUTWARD_MICRO * best[n];
     return &lrcsi_mean_rules[n];
 }

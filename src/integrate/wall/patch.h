@@ -24,8 +24,8 @@ typedef struct lrcsi_patch {
     int known; /* 0: there is a patch, but its mean is not known */
 } lrcsi_patch;
 
-/* What evaluates patches, one after the other. The last one is kept, because the other facet of its
-   sector represents it as well. */
+/* What evaluates patches, one after the other. The last one is kept only to save time, because the
+   other facet of its sector represents it as well: no result depends on it. */
 typedef struct lrcsi_patches {
     double negligible; /* given: no smaller remainder is needed */
     int derivatives;   /* given: 1 if glint_u and diffuse_log are needed, for derivatives */

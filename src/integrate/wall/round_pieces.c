@@ -80,10 +80,7 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
             best[n] = lrcsi_min(best[n], bound);
         }
     }
-    int n = 0;
-    while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
-        n++;
-    }
+    const int n = lrcsi_mean_rule_choose(best, target);
     return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_OUTWARD_NANO};
 }
 
@@ -297,8 +294,7 @@ static int facet_is_uncertain(const pieces_job *job, uint32_t facet)
     const lrcsi_masked_band *band = job->band;
     int state = lrcsi_patch_state_of(job->view, facet, job->visible, band);
     return state == LRCSI_PATCH_PARTIAL ||
-           (state == LRCSI_PATCH_HIDDEN && lrcsi_masked_mismatch(band, facet) > 0 &&
-            !lrcsi_masked_band_is_hidden(band, facet));
+           (state == LRCSI_PATCH_HIDDEN && lrcsi_masked_mismatch(band, facet) > 0);
 }
 
 /* Does a facet belong to the part, and show this side of its wall to the laser? */

@@ -17,6 +17,7 @@
 
 /* A side of the rim, and what is under it of the inside. */
 typedef struct rim_side {
+    lrcsi_round_side at;
     uint32_t facet; /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is
                        none */
     int is_summed;  /* the sum includes that facet: something of it may be visible */
@@ -119,10 +120,10 @@ static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32
 }
 
 /* Adds the margin of a side of the rim, or what it is at most, to a facet under it. */
-static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const rim_side *side,
-                           lrcsi_round_terms *terms)
+static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = job->wall->view;
+    const lrcsi_round_side *at = &side->at;
     const int away = view->facing[at->facet] <= 0;
     lrcsi_round_margin margin;
     if (side->facet == LRCS_NONE ||
@@ -138,6 +139,16 @@ static void rim_add_margin(const rim_job *job, const lrcsi_round_side *at, const
     }
 }
 
+size_t lrcsi_round_rim_need(const lrcs_prepared *prepared)
+{
+    size_t most = 0;
+    for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
+        const uint32_t around = prepared->scene->part[i].divisions.around;
+        most = around > most ? around : most;
+    }
+    return lrcsi_work_bytes(most, sizeof(rim_side));
+}
+
 /* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets
    under it meet a band of their own part (visibility/proximity/event_band.c, 3).
    2. Which facets are under which sides.
@@ -151,31 +162,31 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
     const size_t mark = work->used;
     const uint32_t from = part->first_facet;
     const uint32_t to = from + part->facet_count;
+    const uint32_t around = part->divisions.around;
     const rim_job job = {inside, band, visible, part,
-                         lrcsi_work_take(work, part->divisions.around, sizeof(rim_side))};
-    lrcsi_round_sector sector;
-    uint32_t number;
+                         lrcsi_work_take(work, around, sizeof(rim_side))};
     uint32_t sides = 0;
     int known = job.side != NULL;
     for (uint32_t f = from; f < to && known; f++) { /* 1 */
+        lrcsi_round_sector sector;
+        uint32_t number;
         if (rim_sector(&job, f, &sector, &number)) {
             lrcsi_round_margin margin;
             lrcsi_round_margin_extent(inside, &sector.side[0], &margin);
             known = margin.width <= 2 * p->proximity.reach[inside->part];
-            job.side[number] = (rim_side){.facet = LRCS_NONE, .is_certain = 1};
+            job.side[number] =
+                (rim_side){.at = sector.side[0], .facet = LRCS_NONE, .is_certain = 1};
             sides++;
         }
     }
-    known = known && sides == part->divisions.around;
+    known = known && sides == around;
     for (uint32_t f = from; f < to && known; f++) { /* 2 */
         if (is_under_rim(&job, f)) {
             rim_enter(&job, terms, f);
         }
     }
-    for (uint32_t f = from; f < to && known; f++) { /* 3 */
-        if (rim_sector(&job, f, &sector, &number)) {
-            rim_add_margin(&job, &sector.side[0], &job.side[number], terms);
-        }
+    for (uint32_t i = 0; i < around && known; i++) { /* 3 */
+        rim_add_margin(&job, &job.side[i], terms);
     }
     work->used = mark;
     return known;

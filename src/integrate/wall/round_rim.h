@@ -22,6 +22,9 @@
 #include "visibility/base/visible_area.h"
 #include "visibility/proximity/proximity_band.h"
 
+/* Bytes for lrcsi_round_rim_add, at most. */
+size_t lrcsi_round_rim_need(const lrcs_prepared *prepared);
+
 /* For the wall's inside. Given: the visible areas of all facets, terms[facet_count] with all
    pieces. Returns 0, and adds nothing, if there is no memory, a side is not known, or a margin is
    wider than twice the part's reach; then no facet of the inside may be in a set. */

@@ -165,13 +165,13 @@ double lrcsi_round_bound(const lrcsi_round_surface *surface, const lrcs_brdf *br
     const double rounding =
         4 * gradient_err(surface, point->length, s) * point->length * point->length;
     e = e * LRCSI_OUTWARD_MICRO + surface->position_err;
-    double b = e * surface->in_plane;
+    double db = e * surface->in_plane; /* bound on |b - S| */
     double c = 2 * e * steepest + e * e;
-    double delta = (2 * s * b + b * b + surface->a * c) * LRCSI_OUTWARD_MICRO + rounding;
+    double delta = (2 * s * db + db * db + surface->a * c) * LRCSI_OUTWARD_MICRO + rounding;
     if (!(delta < DELTA_MAX * s * s)) {
         return HUGE_VAL;
     }
-    double least = s - b + sqrt(s * s - delta); /* |B + S'| */
+    double least = s - db + sqrt(s * s - delta); /* bound on |b + S'|, from below */
     if (!(least > 0)) {
         return HUGE_VAL;
     }

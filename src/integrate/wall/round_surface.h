@@ -11,20 +11,19 @@
    g = D X + (0, 0, beta) is half the gradient, and points outward. Let d be the direction to the
    laser, X the wall's point above a point of the view plane, and S = g . d, so that cos(theta) =
    S / |g|. Above the point that is v away in the view plane, the wall is at X + v + t d, where
-       A t^2 + 2 B t + C = 0,  A = d . D d,  B = S + v . D d,  C = 2 g . v + v . D v,
-       S' = sqrt(B^2 - A C),  t = -C / (B + S'),  g' = g + D (v + t d).
-   With w = |g'|^2 / S'^2 = 1 / cos^2(theta) and u = w - 1 = tan^2(theta),
-       G = a w^(5/2) exp(-u / s^2) + b w^(-(m + 1)/2),
-   a and b the amplitudes of glint and diffuse term.
+       a t^2 + 2 b t + c = 0,  a = d . D d,  b = S + v . D d,  c = 2 g . v + v . D v,
+       S' = sqrt(b^2 - a c),  t = -c / (b + S'),  g' = g + D (v + t d).
+   With w = |g'|^2 / S'^2 = 1 / cos^2(theta), u = w - 1 = tan^2(theta), and the BRDF's A, B, s, m,
+       G = A w^(5/2) exp(-u / s^2) + B w^(-(m + 1)/2).
 
    Bound. Let v be a complex vector in the view plane, |v| <= e. With h the part of D d in that
-   plane, and g_p that of g, |B - S| <= e |h|,  |C| <= 2 e |g_p| + e^2, |S'^2 - S^2| <= delta = 2 S
-   e |h| + e^2 |h|^2 + A |C|. If delta < S^2, S' is analytic, its real part is positive, and |S' -
-   S| <= S - sqrt(S^2 - delta). Then |t| <= |C| / (2 S - |B - S| - |S' - S|), and z changes by |dz|
+   plane, and g_p that of g, |b - S| <= e |h|,  |c| <= 2 e |g_p| + e^2, |S'^2 - S^2| <= delta = 2 S
+   e |h| + e^2 |h|^2 + a |c|. If delta < S^2, S' is analytic, its real part is positive, and |S' -
+   S| <= S - sqrt(S^2 - delta). Then |t| <= |c| / (2 S - |b - S| - |S' - S|), and z changes by |dz|
    <= e |z_p| + |t| |z . d|, z_p the part of the axis in the view plane. |g|^2 is R^2 on a sphere,
    and R^2 + beta^2 - 2 beta z on a paraboloid: it changes by at most eta = 2 beta |dz|. So |w' - w|
-   <= (eta + w delta) / (S^2 - delta) = omega. With omega <= w/2, |G| is at most a (w + omega)^(5/2)
-   exp((omega - u) / s^2) + b (w - omega)^(-(m + 1)/2) = G_max. Since G is analytic there, its
+   <= (eta + w delta) / (S^2 - delta) = omega. With omega <= w/2, |G| is at most A (w + omega)^(5/2)
+   exp((omega - u) / s^2) + B (w - omega)^(-(m + 1)/2) = G_max. Since G is analytic there, its
    Taylor polynomial of degree n in v differs from it by at most G_max q^(n+1) / (1 - q),  q = |v| /
    e, for real v (a power series in one variable along every line). */
 #ifndef LRCSI_ROUND_SURFACE_H
@@ -40,7 +39,7 @@ typedef struct lrcsi_round_surface {
     double axis[3][3];   /* the view's axes x, y, and z times side, in the shape's frame */
     double origin[3];    /* that of the view, in the shape's frame */
     double view[3];      /* the shape's origin, in the view; z times side */
-    double a;            /* A */
+    double a;            /* of the equation for t */
     double in_plane;     /* |h| */
     double position_err; /* bound on the rounding error of a point's coordinates, but for the factor
                             1 / cos(theta) along d */

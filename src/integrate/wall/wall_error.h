@@ -7,7 +7,7 @@
 #include "integrate/wall/patch.h"
 #include "integrate/wall/patch_visibility.h"
 #include "optics/reflect.h"
-#include "visibility/raster/visible.h"
+#include "visibility/base/visible_area.h"
 
 /* What the errors of all facets of a run follow from. */
 typedef struct lrcsi_tessellation_input {
