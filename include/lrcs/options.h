@@ -118,12 +118,13 @@ typedef struct lrcs_run_options {
    the number that a run took.
    4. For previews. With LRCS_ACCEPT_ESTIMATE method auto
    - clips, if that is likely to cost little more than a raster, and gives up after as many steps as
-     fit in the time of the raster;
+     fit in the time of the raster, or after the last of `steps`: then nothing of it is left in the
+     answer, and LRCS_FLAG_STEPS_SPENT is not set for it;
    - otherwise draws a raster, and finer ones while the estimated error (estimate_m2) exceeds what
      the proved parts of the bound (tessellation, rounding) leave of the tolerance;
    - clips if no raster suffices.
-   An estimate is used only if all depths were decided, no limit of steps was reached and sigma is
-   not 0. An answer whose bound meets the tolerance does not count as accepted by estimate. These
+   An estimate is used only if all depths were decided, sigma is not 0, and no limit of steps left
+   anything open that it includes. An answer whose bound meets the tolerance does not count as accepted by estimate. These
    rasters, also with method zbuffer, cost no more than drawing them: their samples prove nothing
    about areas, so that the bound, still proved, includes all of each facet that could be visible or
    hidden. For fewer than 1,024 facets, with curved normals, or if there are curved shapes among

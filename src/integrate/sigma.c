@@ -184,10 +184,12 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
         attempts.cost = lrcsi_cost_count(&run->view);
     }
     lrcsi_progress_report(options->progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
-    while (status == LRCS_OK && lrcsi_attempts_next(run, &attempts)) { /* which method, how fine */
-        status = lrcsi_sigma_search(run, &attempts);                   /* visible areas */
-        if (status == LRCS_OK && attempt->end == LRCSI_ATTEMPT_FOUND &&
-            request->last == LRCSI_SIGMA_SUM) {
+    while (lrcsi_attempts_next(run, &attempts)) {    /* which method, how fine */
+        status = lrcsi_sigma_search(run, &attempts); /* visible areas */
+        if (status != LRCS_OK) {
+            break;
+        }
+        if (attempt->end == LRCSI_ATTEMPT_FOUND && request->last == LRCSI_SIGMA_SUM) {
             lrcsi_sigma_integrate(run, &attempt->meter); /* where areas do not suffice */
             run->outcome.total = lrcsi_sigma_sum(run, NULL);
         }

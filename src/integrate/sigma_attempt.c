@@ -96,13 +96,14 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
     const lrcsi_attempt *last = &attempts->current;
     const lrcsi_cost *cost = &attempts->cost;
     const int any = run->request.options->accept == LRCS_ACCEPT_ANY;
-    if (last->method == LRCS_METHOD_AUTO) { /* 1 */
+    if (last->end == LRCSI_ATTEMPT_NONE) { /* 1 */
         attempts->size =
             lrcsi_cost_size(cost, any ? 1 : run->request.options->tolerance, LRCSI_SIGMA_SIZE_MAX);
     } else if (last->method == LRCS_METHOD_ZBUFFER) {
         attempts->size = next_size(run);
     } else if (last->end == LRCSI_ATTEMPT_ABANDONED) {
         attempts->abandoned_ns = last->limit_ns;
+        attempts->steps_short = last->meter.limit == run->meter.limit;
     } else if (last->end == LRCSI_ATTEMPT_NO_MEMORY) {
         attempts->memory_short = 1;
     }
@@ -120,12 +121,13 @@ static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attemp
     uint32_t size = /* 3 */
         attempts->rasters == 0 ? lrcsi_cost_first(cost, attempts->size) : attempts->size;
     attempts->rasters++;
-    return attempt_raster(run, size,
-                          any                      ? run->plan.reason
-                          : attempts->memory_short ? NO_MEMORY_REASON
-                          : attempts->abandoned_ns > 0
-                              ? "clipping was begun, and took longer than a raster"
-                              : "a raster is estimated to cost less than clipping");
+    return attempt_raster(
+        run, size,
+        any                          ? run->plan.reason
+        : attempts->memory_short     ? NO_MEMORY_REASON
+        : attempts->steps_short      ? "clipping was begun, and took more steps than the run has"
+        : attempts->abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
+                                     : "a raster is estimated to cost less than clipping");
 }
 
 /* The order of attempts:
@@ -148,7 +150,7 @@ int lrcsi_attempts_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)
         attempts->current = attempt_raster(run, plan->size, NO_MEMORY_REASON);
         attempts->current.samples_only = 0;
         attempts->current.fallback = 1;
-    } else if (last.method == LRCS_METHOD_AUTO && plan->method == LRCS_METHOD_EXACT) {
+    } else if (last.end == LRCSI_ATTEMPT_NONE && plan->method == LRCS_METHOD_EXACT) {
         attempts->current = attempt_clipping(run, HUGE_VAL, plan->reason);
     } else if (drawn && raster_ends(run, last.samples_only)) { /* 3 */
         if (options->method != LRCS_METHOD_AUTO || last.fallback || run->meter.spent ||

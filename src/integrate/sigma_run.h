@@ -62,6 +62,7 @@ typedef struct lrcsi_sigma {
 
 /* How an attempt ended. */
 enum lrcsi_attempt_end {
+    LRCSI_ATTEMPT_NONE,      /* there was none */
     LRCSI_ATTEMPT_FOUND,     /* visible areas were found */
     LRCSI_ATTEMPT_ABANDONED, /* it took as many steps as it was allowed, and was not done */
     LRCSI_ATTEMPT_REFUSED,   /* more facets are undecided than its limit allows for */
@@ -70,7 +71,7 @@ enum lrcsi_attempt_end {
 
 /* An attempt to find visible areas whose sum is accepted. */
 typedef struct lrcsi_attempt {
-    int method;         /* LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER; AUTO (0): there was none */
+    int method;         /* LRCS_METHOD_EXACT or LRCS_METHOD_ZBUFFER */
     const char *reason; /* why this method */
     double limit_ns;    /* the time that clipping may take, as estimated; HUGE_VAL: no limit */
     uint32_t size;      /* of a raster */
@@ -86,7 +87,8 @@ static inline int lrcsi_attempt_is_limited(const lrcsi_attempt *attempt)
     return attempt->limit_ns < HUGE_VAL;
 }
 
-/* Has it taken all steps of a limit that is its own, not the run's? */
+/* Has limited clipping taken all steps that it may: those that fit in its time, or the run's last
+   ones? */
 static inline int lrcsi_attempt_is_over_limit(const lrcsi_attempt *attempt)
 {
     return lrcsi_attempt_is_limited(attempt) && attempt->meter.spent;
@@ -101,6 +103,7 @@ typedef struct lrcsi_attempts {
     uint32_t rasters;    /* chosen so far */
     double abandoned_ns; /* the limit of the last clipping that was abandoned; 0: none was */
     int memory_short;    /* memory was short for limited clipping, which is not tried again */
+    int steps_short;     /* limited clipping was abandoned because the run had no more steps */
     /* What rasters share whose areas are proved: */
     int decided; /* decisions are made, and are the last item in the work area */
     lrcsi_decisions decisions;

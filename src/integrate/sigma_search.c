@@ -58,6 +58,7 @@ static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
 static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
     const int limited = lrcsi_attempt_is_limited(attempt);
+    attempt->mark = run->work->used;
     int status = lrcsi_sigma_classify(run, &attempt->meter, limited);
     if (status == LRCS_OK && run->classified) {
         attempt->mark = run->work->used;
@@ -72,9 +73,8 @@ static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_at
         attempt->end = LRCSI_ATTEMPT_NO_MEMORY;
         return LRCS_OK;
     }
-    if (lrcsi_attempt_is_over_limit(attempt)) {
-        attempt->end = LRCSI_ATTEMPT_ABANDONED;
-    }
+    attempt->end =
+        lrcsi_attempt_is_over_limit(attempt) ? LRCSI_ATTEMPT_ABANDONED : LRCSI_ATTEMPT_FOUND;
     return status;
 }
 
@@ -127,9 +127,9 @@ int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
                                    .reason = attempt->reason,
                                    .flags = attempt->fallback ? LRCS_FLAG_MEMORY_FALLBACK : 0u};
     if (attempt->method == LRCS_METHOD_ZBUFFER) {
+        attempt->end = LRCSI_ATTEMPT_FOUND;
         return find_by_drawing(run, attempts);
     }
     lrcsi_sigma_release_decisions(run, attempts);
-    attempt->mark = run->work->used;
     return search_by_clipping(run, &attempts->cost, attempt);
 }

@@ -62,7 +62,7 @@ same facet_says_why "$said" "facet (chosen by auto: proved a single convex body:
 method_line pair.toml
 same exact_says_why "$said" "exact (chosen by auto: not proved a single convex body; clipping has the closest bound)"
 method_line pair.toml --resolution 512 --tolerance 0.5
-same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: the requested raster meets the tolerance)"
+same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: a raster of this size is requested)"
 method_line pair.toml --resolution 16
 same a_raster_that_is_not_enough_yields "$said" "exact (chosen by auto: the requested raster misses the tolerance)"
 method_line pair.toml --method zbuffer --resolution 64

@@ -288,6 +288,51 @@ static void estimates_with_little_memory_and_few_steps_hold_the_truth(void **sta
     assert_true(fallbacks > 10 && clipped > 10 && drawn > 10);
 }
 
+/* A limit of steps that was reached is said to be spent, unless clipping was only tried before a
+   raster that is accepted: then the reason says it. Otherwise the limit has changed nothing. */
+static void a_limit_of_steps_that_was_reached_is_named(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.5, 0.3, 0.8};
+    lrcs_work work;
+    lrcs_pose pose;
+    shadows_about(40);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    unsigned spent = 0;
+    unsigned unspent = 0;
+    unsigned drawn = 0;
+    for (int i = 0; i < 4; i++) {
+        lrcs_run_options options = lrcs_run_options_default();
+        options.accept = LRCS_ACCEPT_ESTIMATE;
+        options.tolerance = (const double[]){0.02, 1e-3, 2e-4, 1e-6}[i];
+        lrcs_result whole = answer(prepared, &work, d, &options);
+        for (options.steps = 100; options.steps < 4 * whole.steps;
+             options.steps += 1 + options.steps / 16) {
+            lrcs_result r = answer(prepared, &work, d, &options);
+            check_abs(r.sigma_m2, whole.sigma_m2, r.bound_m2 + whole.bound_m2);
+            assert_true(r.steps <= options.steps);
+            if (r.flags & LRCS_FLAG_STEPS_SPENT) {
+                assert_true((r.flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) == 0);
+                spent++;
+                continue;
+            }
+            if (strcmp(r.method_reason,
+                       "clipping was begun, and took more steps than the run has") == 0) {
+                assert_int_equal(r.method, LRCS_METHOD_ZBUFFER);
+                assert_true(r.flags == LRCS_FLAG_ACCEPTED_BY_ESTIMATE);
+                drawn++;
+                continue;
+            }
+            unspent++;
+            assert_true(r.sigma_m2 == whole.sigma_m2 && r.bound_m2 == whole.bound_m2);
+            assert_true(r.flags == whole.flags && r.steps == whole.steps);
+            assert_string_equal(r.method_reason, whole.method_reason);
+        }
+    }
+    assert_true(spent > 20 && unspent > 20 && drawn > 20);
+}
+
 /* --- estimates that know nothing -------------------------------------------------------------- */
 
 /* Two black plates over a bright one, with a slit between them that is narrower than a pixel: no
@@ -353,6 +398,7 @@ int main(void)
         cmocka_unit_test(any_takes_the_first_raster),
         cmocka_unit_test(guesses_are_made_of_many_facets_only),
         cmocka_unit_test(estimates_with_little_memory_and_few_steps_hold_the_truth),
+        cmocka_unit_test(a_limit_of_steps_that_was_reached_is_named),
         cmocka_unit_test(where_no_sample_reflects_the_estimate_does_not_count),
         cmocka_unit_test(names_and_numbers_go_both_ways),
     };

@@ -82,7 +82,7 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
     } else if (plan->nothing_hidden && !plan->shadows_forced) {
         plan_choose(plan, LRCS_METHOD_FACET, "proved a single convex body: nothing is hidden");
     } else if (options->resolution != 0) {
-        plan_choose(plan, LRCS_METHOD_ZBUFFER, "the requested raster meets the tolerance");
+        plan_choose(plan, LRCS_METHOD_ZBUFFER, "a raster of this size is requested");
     } else if (preview_tried(options) && (samples || options->accept == LRCS_ACCEPT_ANY)) {
         plan->previews = samples;
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
