@@ -3,7 +3,7 @@
 # Checks the order of the layers: a file includes its own layer or earlier ones, the tool only the
 # public headers, the core no system header that needs an operating system. Also: every header
 # compiles alone, no includes are cyclic, src/README.md names every file and, in its trace of one
-# facet, only what exists. Prints FILE:LINE and the reason for each breach.
+# facet, only what exists and calls that are made. Prints FILE:LINE and the reason for each breach.
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"
@@ -177,6 +177,31 @@ for name in $(sed -n '/^## One facet/,$p' src/README.md | grep -oE '`[a-z0-9_]+`
     grep -qE "^[a-z].*[ *]$name\\(" $files || [ -d "src/$name" ] || [ -n "$(find src -name "$name.c")" ] ||
         echo "src/README.md: the trace of one facet names $name, which does not exist" >>"$log"
 done
+
+# Where it says that one function calls another, `A` → `B`, the body of A names B.
+awk '
+FNR == 1 { file++ }
+file == 1 && /^## One facet/ { trace = 1 }
+file == 1 { if (trace) text = text " " $0; next }
+/^[a-z].*[a-z0-9_]+\(/ && !/;[ \t]*$/ { # a definition begins in the first column
+    name = $0
+    sub(/\(.*/, "", name)
+    sub(/.*[ *]/, "", name)
+}
+{ body[name] = body[name] " " $0 }
+/^}/ { name = "" }
+END {
+    gsub(/\([a-z0-9_\/]*`[a-z0-9_\/]+`\)/, "", text) # the file of a function
+    count = split(text, piece, "→")
+    for (i = 1; i < count; i++) {
+        n = split(piece[i], part, "`")
+        from = part[n - 1]
+        split(piece[i + 1], part, "`")
+        to = part[2]
+        if (body[from] !~ ("[^a-z0-9_]" to "[^a-z0-9_]"))
+            print "src/README.md: the trace says that " from " calls " to
+    }
+}' src/README.md $(echo "$files" | grep '^src/') >>"$log" || exit 1
 
 if [ -s "$log" ]; then
     cat "$log" >&2
