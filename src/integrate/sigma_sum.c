@@ -130,7 +130,7 @@ static void areas_apply_proofs(lrcsi_sigma *run)
       partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. masks what is hidden of the proximity band, and integrates over the visible pieces of
       round walls.
-   Steps are taken from the given meter, which is that of the run or of an attempt. */
+   Steps are taken from the given meter, that of the attempt. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int sampled = run->outcome.size != 0;

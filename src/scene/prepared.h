@@ -66,9 +66,9 @@ typedef struct lrcsi_proximity_pair {
 } lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {
-    double *reach; /* part: lrcs_part.reach, scaled; NULL if there is no curved shape among other
-                      parts, or if the bounds of some part are not known */
-    double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
+    double *reach;       /* part: its bounds.reach, scaled; NULL if there is no curved shape among
+                            other parts, or if the bounds of some part are not known */
+    double *hausdorff;   /* part: its bounds.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
     double max_hausdorff;
     lrcsi_part_set *near;       /* facet on a round wall: the other parts of which a facet is within

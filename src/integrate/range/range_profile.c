@@ -117,7 +117,7 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
 
 /* Computes the ranges of a facet's corners, and finds the bins that it extends into. A corner whose
    range cannot be distinguished from the edge between two bins extends into both. If the range is
-   exact, so is bin_of. */
+   exact, so is its bin. */
 static void facet_ranges(const profile_run *run, uint32_t facet, lrcsi_range_facet *f)
 {
     f->first = run->bins.count;

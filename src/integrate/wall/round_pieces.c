@@ -105,8 +105,8 @@ static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
             }
             lrcsi_round_value at =
                 lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, centre, v);
-            double part = area * (2 * r * weight[i] * weight[j]);
-            lrcsi_round_sum_add(&job->wall, part, &at, sum);
+            double share = area * (2 * r * weight[i] * weight[j]);
+            lrcsi_round_sum_add(&job->wall, share, &at, sum);
         }
     }
 }
@@ -128,8 +128,8 @@ static int triangle_centre(const pieces_job *job, const double corner[3][2],
     return lrcsi_round_point_make(&job->wall.surface, at, centre);
 }
 
-/* Corner of sub-triangle number i of n x n. */
-static void triangle_part(const double corner[3][2], int n, int i, double part[3][2])
+/* The corners of triangle number i of the n x n into which one is divided evenly. */
+static void triangle_divide(const double corner[3][2], int n, int i, double small[3][2])
 {
     int row = 0;
     while ((row + 1) * (row + 1) <= i) {
@@ -144,8 +144,8 @@ static void triangle_part(const double corner[3][2], int n, int i, double part[3
         double r = (double)node[odd][k][0] / n;
         double s = (double)node[odd][k][1] / n;
         for (int j = 0; j < 2; j++) {
-            part[k][j] = corner[0][j] + r * (corner[1][j] - corner[0][j]) +
-                         s * (corner[2][j] - corner[1][j]);
+            small[k][j] = corner[0][j] + r * (corner[1][j] - corner[0][j]) +
+                          s * (corner[2][j] - corner[1][j]);
         }
     }
 }
@@ -159,11 +159,11 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
         lrcsi_round_sum all = {.glint = 0};
         int fine = 1;
         for (int i = 0; i < n * n && fine; i++) {
-            double part[3][2];
+            double small[3][2];
             lrcsi_round_point point;
             double radius;
-            triangle_part(corner, n, i, part);
-            if (!triangle_centre(job, (const double(*)[2])part, &point, &radius)) {
+            triangle_divide(corner, n, i, small);
+            if (!triangle_centre(job, (const double(*)[2])small, &point, &radius)) {
                 return 0;
             }
             const double here[2] = {0, 0};
@@ -174,7 +174,7 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
             fine = rule.remainder <=
                    (n < DIVISIONS_MAX ? TARGET_MISSED * job->target : REMAINDER_MAX) * scale;
             if (fine) {
-                triangle_add(job, &point, (const double(*)[2])part, area / (n * n), rule.rule,
+                triangle_add(job, &point, (const double(*)[2])small, area / (n * n), rule.rule,
                              &all);
                 all.remainder += area / (n * n) * rule.remainder;
             }
@@ -372,8 +372,8 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
         if (state == 0) {
             continue;
         }
-        (void)lrcsi_round_margin_make(&job->wall, side, &margin); /* it is known */
-        if (state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
+        const int known = lrcsi_round_margin_make(&job->wall, side, &margin);
+        if (known && state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
             lrcsi_round_margin_add(&margin, 1, &terms[to]);
         } else {
             terms[to].own += margin.largest;
@@ -381,13 +381,13 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
     }
 }
 
-/* Are all margins of a sector known? */
+/* Are the margins of all sides of a sector known? */
 static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *sector)
 {
     int known = 1;
     for (int i = 0; i < sector->sides && known; i++) {
         lrcsi_round_margin margin;
-        known = lrcsi_round_margin_make(&job->wall, &sector->side[i], &margin);
+        known = lrcsi_round_margin_bounds(&job->wall, &sector->side[i], &margin);
     }
     return known;
 }

@@ -13,12 +13,15 @@
 #include "integrate/wall/mean_rule.h"
 #include "integrate/wall/patch.h"
 
-/* A margin is divided into at most so many parts. Its remainder should be this small, compared with
-   a bound on its integral. */
-#define MARGIN_PARTS_MAX 8
-/* The least cosine of the incidence angle in the middle of a part. */
-#define MIN_COSINE    0.16
-#define MARGIN_TARGET 1e-6
+/* A margin is divided into at most so many pieces. Its remainder should be this small, compared
+   with a bound on its integral. */
+#define MARGIN_PIECES_MAX 8
+#define MARGIN_TARGET     1e-6
+/* The rules along a piece of a margin and across it. */
+#define MARGIN_RULE_ALONG  lrcsi_mean_rules[LRCSI_MEAN_RULES - 2]
+#define MARGIN_RULE_ACROSS lrcsi_mean_rules[1]
+/* The least cosine of the incidence angle in the middle of a piece. */
+#define MIN_COSINE 0.16
 
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
 
@@ -107,59 +110,59 @@ static double side_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *si
     return 0.5 * (h * r) * (h * r) * grown;
 }
 
-/* A part of a margin, for t in middle - half .. middle + half: its chord c + t' step, t' in -1 ..
+/* A piece of a margin, for t in middle - half .. middle + half: its chord c + t' step, t' in -1 ..
    1, how far the arc is from it and the difference of their derivatives in the middle. */
-typedef struct margin_part {
+typedef struct margin_piece {
     double middle, half;
     double chord[2], step[2];
     double apart, turned, length; /* the last is |step| */
     lrcsi_round_point centre;
-} margin_part;
+} margin_piece;
 
 /* All of it but the centre. */
-static margin_part margin_part_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                                    double middle, double half)
+static margin_piece margin_piece_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                                      double middle, double half)
 {
     const double turn = side->sign * half;
     double a[2];
     double da[2];
-    margin_part part = {.middle = middle, .half = half};
+    margin_piece piece = {.middle = middle, .half = half};
     for (int k = 0; k < 2; k++) {
-        part.chord[k] = side->chord[k] + middle * side->step[k];
-        part.step[k] = half * side->step[k];
+        piece.chord[k] = side->chord[k] + middle * side->step[k];
+        piece.step[k] = half * side->step[k];
     }
     side_arc(wall, side, side->sign * middle, a, da);
-    part.apart = lrcsi_length_flat(a[0] - part.chord[0], a[1] - part.chord[1]);
-    part.turned = lrcsi_length_flat(turn * da[0] - part.step[0], turn * da[1] - part.step[1]);
-    part.length = lrcsi_length_flat(part.step[0], part.step[1]);
-    return part;
+    piece.apart = lrcsi_length_flat(a[0] - piece.chord[0], a[1] - piece.chord[1]);
+    piece.turned = lrcsi_length_flat(turn * da[0] - piece.step[0], turn * da[1] - piece.step[1]);
+    piece.length = lrcsi_length_flat(piece.step[0], piece.step[1]);
+    return piece;
 }
 
 /* Bounds on the distance between arc and chord, and on the difference of their derivatives, for
    parameters up to r times as far from the middle. */
 static void margin_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                        const margin_part *part, double r, double *width, double *slope)
+                        const margin_piece *piece, double r, double *width, double *slope)
 {
-    double bend = side_bend(wall, side, r * part->half, slope);
+    double bend = side_bend(wall, side, r * piece->half, slope);
     *width =
-        (part->apart + part->turned * r + bend) * LRCSI_OUTWARD_NANO + wall->surface.position_err;
-    *slope = (part->turned + *slope * part->half) * LRCSI_OUTWARD_NANO;
+        (piece->apart + piece->turned * r + bend) * LRCSI_OUTWARD_NANO + wall->surface.position_err;
+    *slope = (piece->turned + *slope * piece->half) * LRCSI_OUTWARD_NANO;
 }
 
 /* G_max for such parameters, and up to `out` times as far from the chord as the arc; and the
    extent. */
 static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                           const margin_part *part, double r, double out, double *width,
+                           const margin_piece *piece, double r, double out, double *width,
                            double *slope)
 {
-    margin_bend(wall, side, part, r, width, slope);
-    return lrcsi_round_bound(&wall->surface, &wall->brdf, &part->centre,
-                             r * part->length + out * *width);
+    margin_bend(wall, side, piece, r, width, slope);
+    return lrcsi_round_bound(&wall->surface, &wall->brdf, &piece->centre,
+                             r * piece->length + out * *width);
 }
 
-/* The remainder of the rules along and across a part of a margin. */
+/* The remainder of the rules along and across a piece of a margin. */
 static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                               const margin_part *part, int along, int across)
+                               const margin_piece *piece, int along, int across)
 {
     double error_along = HUGE_VAL; /* complex t, real s */
     double error_across = HUGE_VAL;
@@ -167,14 +170,14 @@ static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_s
     double slope;
     for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
         double q = 1 / (lrcsi_round_ratios[i] * lrcsi_round_ratios[i]);
-        double m = margin_bound(wall, side, part, lrcsi_round_ratios[i], 1, &width, &slope);
-        m *= (part->length + slope) * width;
+        double m = margin_bound(wall, side, piece, lrcsi_round_ratios[i], 1, &width, &slope);
+        m *= (piece->length + slope) * width;
         for (int k = 0; k < along; k++) {
             m *= q;
         }
         error_along = lrcsi_min(error_along, 2 * m / ((2 * along + 1) * (1 - q)));
-        m = margin_bound(wall, side, part, 1, 1 + lrcsi_round_ratios[i], &width, &slope);
-        m *= (part->length + (1 + lrcsi_round_ratios[i]) * slope) * width;
+        m = margin_bound(wall, side, piece, 1, 1 + lrcsi_round_ratios[i], &width, &slope);
+        m *= (piece->length + (1 + lrcsi_round_ratios[i]) * slope) * width;
         for (int k = 0; k < across; k++) {
             m *= q;
         }
@@ -183,9 +186,9 @@ static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_s
     return (error_along + error_across) * LRCSI_OUTWARD_NANO;
 }
 
-/* Adds the integral over a part of a margin. */
+/* Adds the integral over a piece of a margin. */
 static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                       const margin_part *part, const lrcsi_mean_rule *along,
+                       const margin_piece *piece, const lrcsi_mean_rule *along,
                        const lrcsi_mean_rule *across, lrcsi_round_sum *sum)
 {
     double t[LRCSI_MEAN_RULE_POINTS];
@@ -197,21 +200,21 @@ static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *sid
     for (int i = 0; i < count; i++) {
         double a[2];
         double da[2];
-        side_arc(wall, side, side->sign * (part->middle + t[i] * part->half), a, da);
-        const double chord[2] = {part->chord[0] + t[i] * part->step[0],
-                                 part->chord[1] + t[i] * part->step[1]};
+        side_arc(wall, side, side->sign * (piece->middle + t[i] * piece->half), a, da);
+        const double chord[2] = {piece->chord[0] + t[i] * piece->step[0],
+                                 piece->chord[1] + t[i] * piece->step[1]};
         const double out[2] = {a[0] - chord[0], a[1] - chord[1]};
         for (int k = 0; k < rows; k++) {
             double at = 0.5 * (1 + s[k]);
-            const double v[2] = {chord[0] + at * out[0] - part->centre.x[0],
-                                 chord[1] + at * out[1] - part->centre.x[1]};
-            const double turn = at * side->sign * part->half;
-            const double tangent[2] = {(1 - at) * part->step[0] + turn * da[0],
-                                       (1 - at) * part->step[1] + turn * da[1]};
+            const double v[2] = {chord[0] + at * out[0] - piece->centre.x[0],
+                                 chord[1] + at * out[1] - piece->centre.x[1]};
+            const double turn = at * side->sign * piece->half;
+            const double tangent[2] = {(1 - at) * piece->step[0] + turn * da[0],
+                                       (1 - at) * piece->step[1] + turn * da[1]};
             double area =
                 2 * t_weight[i] * s_weight[k] * (out[0] * tangent[1] - out[1] * tangent[0]);
             lrcsi_round_value value =
-                lrcsi_round_value_make(&wall->surface, &wall->brdf, &part->centre, v);
+                lrcsi_round_value_make(&wall->surface, &wall->brdf, &piece->centre, v);
             lrcsi_round_sum_add(wall, area, &value, sum);
         }
     }
@@ -232,7 +235,7 @@ static double margin_position_err(const lrcsi_round_wall *wall, const lrcsi_roun
 void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                                lrcsi_round_margin *margin)
 {
-    const margin_part all = margin_part_make(wall, side, 0, 1);
+    const margin_piece all = margin_piece_make(wall, side, 0, 1);
     double slope;
     *margin = (lrcsi_round_margin){.largest = 0};
     margin_bend(wall, side, &all, 1, &margin->width, &slope);
@@ -240,44 +243,61 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
                    (2 * margin->width + margin_position_err(wall, side));
 }
 
+/* A piece of a margin that is divided evenly, with its centre. Returns 0 if that is not known, or
+   steep. */
+static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_side *side, int index,
+                              int pieces, margin_piece *piece)
+{
+    *piece = margin_piece_make(wall, side, (2.0 * index + 1 - pieces) / pieces, 1.0 / pieces);
+    return lrcsi_round_point_make(&wall->surface, piece->chord, &piece->centre) &&
+           piece->centre.s >= MIN_COSINE * piece->centre.length;
+}
+
 /* The margin is divided until the remainder is small compared with its size.
 
-   Inclination. Where G_max is finite over a part, w = 1 / cos^2 is there at most 1.5 times its
+   Inclination. Where G_max is finite over a piece, w = 1 / cos^2 is there at most 1.5 times its
    value at the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59
    and tan < 8. */
-int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                            lrcsi_round_margin *margin)
+int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                              lrcsi_round_margin *margin)
 {
-    const lrcsi_mean_rule *along = &lrcsi_mean_rules[LRCSI_MEAN_RULES - 2];
-    const lrcsi_mean_rule *across = &lrcsi_mean_rules[1];
     const double position_err = margin_position_err(wall, side);
-    for (int n = 1; n <= MARGIN_PARTS_MAX; n *= 2) {
+    for (int n = 1; n <= MARGIN_PIECES_MAX; n *= 2) {
         lrcsi_round_sum *sum = &margin->sum;
         lrcsi_round_margin_extent(wall, side, margin);
+        margin->pieces = n;
         for (int i = 0; i < n && sum->remainder < HUGE_VAL; i++) {
             double width = 0;
             double slope = 0;
-            margin_part part = margin_part_make(wall, side, (2.0 * i + 1 - n) / n, 1.0 / n);
-            if (!lrcsi_round_point_make(&wall->surface, part.chord, &part.centre) ||
-                !(part.centre.s >= MIN_COSINE * part.centre.length)) {
+            margin_piece piece;
+            if (!margin_piece_place(wall, side, i, n, &piece)) {
                 return 0;
             }
-            double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
-            double size = bound * (part.length + slope) * LRCSI_OUTWARD_NANO;
+            double bound = margin_bound(wall, side, &piece, 1, 1, &width, &slope);
+            double size = bound * (piece.length + slope) * LRCSI_OUTWARD_NANO;
             margin->largest += 2 * size * width;
-            sum->remainder += margin_remainder(wall, side, &part, along->points, across->points);
-            /* the positions of both borders */
-            sum->rounding += size * position_err;
-            if (sum->remainder < HUGE_VAL) {
-                margin_add(wall, side, &part, along, across, sum);
-            }
+            sum->remainder += margin_remainder(wall, side, &piece, MARGIN_RULE_ALONG.points,
+                                               MARGIN_RULE_ACROSS.points);
+            sum->rounding += size * position_err; /* of the positions of both borders */
         }
         if (sum->remainder <= MARGIN_TARGET * margin->largest &&
-            isfinite(sum->rounding + sum->glint + sum->diffuse + margin->largest)) {
+            isfinite(sum->rounding + margin->largest)) {
             return 1;
         }
     }
     return 0;
+}
+
+int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                            lrcsi_round_margin *margin)
+{
+    const int known = lrcsi_round_margin_bounds(wall, side, margin);
+    for (int i = 0; i < margin->pieces && known; i++) {
+        margin_piece piece;
+        (void)margin_piece_place(wall, side, i, margin->pieces, &piece); /* as above */
+        margin_add(wall, side, &piece, &MARGIN_RULE_ALONG, &MARGIN_RULE_ACROSS, &margin->sum);
+    }
+    return known && isfinite(margin->sum.rounding + margin->sum.glint + margin->sum.diffuse);
 }
 
 void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to)

@@ -8,7 +8,7 @@
    1. Distance in projection. In the distance of (2) from y, a bound on the component of x - y
    perpendicular to d may replace e_P, unless Q is open and k_Q > 0. On the curved wall of a shape
    that is placed without distortion, the map moves points by known distances from or towards the
-   axis, along it, and tangentially (lrcs_part.displacement). The bound is the sum of the three, of
+   axis, along it, and tangentially (its bounds.displacement). The bound is the sum of the three, of
    which the first two are multiplied by the sines of the angles between these directions and d. To
    the sides of an event edge only the component of x - y perpendicular to the edge counts, since
    the paths below cross the line of the edge only if that component and k_Q together reach it; at

@@ -4,7 +4,7 @@
    and which facets of other parts are near in scene/proximity.c. integrate/wall/tessellation.c
    decides what the uncertain areas add to the bound of sigma.
 
-   Definitions. A part Q may hide points of another part P.
+   Definitions. A part Q may hide points of another part P. `bounds` is lrcs_part.bounds.
      d        direction to the laser; heights are measured along d, and "in projection" means in
               the projection along d
      ray      of a point: the half-line from it towards the laser; what it meets hides the point
@@ -12,9 +12,9 @@
               the true surface, which is the boundary of B; if the part is open, without one or
               more flat openings
      S        the part's facets; a map takes W onto S
-     e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
+     e        the part's reach (bounds.reach): the map moves no point by more than e. For plates,
               boxes and models e = 0, and W is S
-     k        the part's Hausdorff distance (lrcs_part.hausdorff). If it is closed or flat, every
+     k        the part's Hausdorff distance (bounds.hausdorff). If it is closed or flat, every
               point of B is within k of the solid that S encloses (of S, if flat), and every
               point of that within k of B. If it is open, every point of W is within k of S, every
               point of S within k of W, and every rim of W within k of an event edge of S. For
@@ -69,7 +69,7 @@
    event_band.c, 3, may hold: prisms about facets, rectangles about edges. The fractions of a facet
    in its bands add up to an upper bound of the fraction where the visibility of true shapes and
    facets may differ. A fraction of the facet's area is the same fraction of its patch, because the
-   map stretches areas evenly (mesh/shape/revolution.c), up to what lrcs_part.stretch_err bounds.
+   map stretches areas evenly (mesh/shape/revolution.c), up to what bounds.stretch_err states.
 
    4. Regions. Facets of a curved part that are nowhere uncertain, joined across edges, form
    regions. Other parts hide a region entirely or not at all; one hidden facet that faces the laser
