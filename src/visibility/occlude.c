@@ -29,7 +29,7 @@ static lrcsi_visible_area uniform_area(const lrcsi_occlusion *o, uint32_t facet)
     return (lrcsi_visible_area){0.5 * (low + high), low, high, 0, 0};
 }
 
-void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
+int lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
     o->area = lrcsi_visible_area_exact(0);
@@ -37,7 +37,7 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
     o->single.target.reach = o->single.target.perimeter = o->single.piece_err = 0;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
-        return;
+        return 0;
     }
     if (!classification->undecided[facet]) {
         o->area = uniform_area(o, facet);
@@ -50,6 +50,7 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
         o->undecided = 1;
         lrcsi_facet_cells_open(&o->single, facet);
     }
+    return o->undecided;
 }
 
 int lrcsi_occlude_next(lrcsi_occlusion *o)
@@ -165,10 +166,10 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
             continue;
         }
         lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, f, count);
-        lrcsi_occlude_open(&o, f);
+        const int in_cells = lrcsi_occlude_open(&o, f);
         visible[f] = lrcsi_occlude_area(&o);
         if (moment) {
-            moment[f] = o.undecided ? o.single.moment : (lrcsi_moment){.error = 0};
+            moment[f] = in_cells ? o.single.moment : (lrcsi_moment){.error = 0};
         }
         if (visible[f].high == 0) {
             o.answer[f] = LRCSI_QUERY_HIDDEN;

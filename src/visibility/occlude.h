@@ -30,12 +30,13 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                        lrcsi_occlusion **o);
 
-/* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
-   returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in
-   the frame of o->single.target, which `open` has made if there may be pieces (lrcsi_target_weights
-   leads back to the facet). An entirely visible facet is one piece, its own triangle; a facet of
-   which nothing is known to be visible has no pieces. The area in which the union of the pieces
-   differs from the visible region is at most
+/* One facet piece by piece: call open, then next until it returns 0, then close. `open` returns 1
+   if the pieces are found cell by cell, 0 if all or nothing of the facet is visible. Each `next`
+   that returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece,
+   in the frame of o->single.target, which `open` has made if there may be pieces
+   (lrcsi_target_weights leads back to the facet). An entirely visible facet is one piece, its own
+   triangle; a facet of which nothing is known to be visible has no pieces. The area in which the
+   union of the pieces differs from the visible region is at most
        high - low + lrcsi_occlude_piece_err,
    where high and low are those of the returned area, and the last term, for when `next` has
    returned 0, is due to the rounding of the corners, 20 u reach perimeter with those of
@@ -44,7 +45,7 @@ static inline double lrcsi_occlude_piece_err(const lrcsi_occlusion *o)
 {
     return 20 * LRCSI_U * o->single.target.reach * o->single.target.perimeter + o->single.piece_err;
 }
-void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
+int lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occlusion *o);
 lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
 

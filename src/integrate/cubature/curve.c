@@ -245,8 +245,8 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
             lrcsi_curve_integral_make(&context, f, &integral);
         }
         if (!sampled || (partly && applies)) {
-            lrcsi_occlude_open(o, f);
-            if (applies && o->undecided) {
+            const int in_cells = lrcsi_occlude_open(o, f);
+            if (applies && in_cells) {
                 curve_terms[f] = curve_from_pieces(&integral, o, &visible[f]);
                 lrcsi_curve_context_add(&context, curve_terms[f].glint + curve_terms[f].diffuse);
                 continue;

@@ -208,8 +208,8 @@ static double profile_add_pieces(profile_run *run, lrcsi_range_facet *f, uint32_
         return known.high - known.low;
     }
     double area_err = 0;
-    lrcsi_occlude_open(o, facet);
-    if (f->curve && o->undecided) {
+    const int in_cells = lrcsi_occlude_open(o, facet);
+    if (f->curve && in_cells) {
         f->position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
     }
     while (lrcsi_occlude_next(o)) {
@@ -217,7 +217,7 @@ static double profile_add_pieces(profile_run *run, lrcsi_range_facet *f, uint32_
         double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
         double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err +
                            101 * LRCSI_U * target->reach * slope;
-        if (o->undecided) {
+        if (in_cells) {
             area_err += profile_add_piece(run, f, target, &o->single.piece, range_err);
         } else {
             lrcsi_range_add_triangle(&run->bins, f, incidence->projected, f->range, normal,
@@ -226,7 +226,7 @@ static double profile_add_pieces(profile_run *run, lrcsi_range_facet *f, uint32_
     }
     lrcsi_visible_area visible =
         lrcsi_visible_area_proved(run->view, facet, lrcsi_occlude_close(o));
-    if (o->undecided) {
+    if (in_cells) {
         area_err += lrcsi_occlude_piece_err(o);
     }
     if (run->visible) {

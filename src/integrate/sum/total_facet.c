@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2, facet by facet: those near grazing incidence, in the bright lobe of a narrow
    glint, with curved normals, or on curved walls. Incidence is in double-double (view/view.h). Also
-   the tessellation error of a facet, and what facets add to counts and records. */
+   the tessellation error of a facet, and what facets add to counts and records.
+   integrate/derivative/sensitivity.c differentiates the same terms: a case that is added here needs
+   its derivative there. */
 #include <math.h>
 
 #include "base/constant.h"

@@ -249,7 +249,7 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     if (!(bound < HUGE_VAL)) {
         return 0;
     }
-    lrcsi_occlude_open(o, facet);
+    (void)lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
         const lrcsi_clip_polygon *polygon = &o->single.piece;
         double origin[3];

@@ -5,7 +5,7 @@
 
    Q is a part that the library makes, placed without distortion, and closed or with one flat
    opening. B is its true solid, a convex body, S^ the solid that its facets enclose, with flat
-   openings closed, and k its Hausdorff distance (its bounds.hausdorff). K and K' are the images of B
+   openings closed, and k its Hausdorff distance (bounds.hausdorff). K and K' are the images of B
    and S^ in projection along the direction to the laser. For a point y, and x at a distance of at
    most delta from it in projection: y is gained if it is in K' and x not in K, and lost if x is in
    K and y not in K'. outline.c proves what is claimed here. */
