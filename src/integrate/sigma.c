@@ -9,9 +9,9 @@
       resolution, lrcsi_sigma_search (sigma_search.c) finds visible areas by it,
       lrcsi_sigma_integrate (sigma_sum.c) integrates where areas do not suffice, lrcsi_sigma_sum
       (sigma_sum.c) sums over all facets, lrcsi_attempts_end (sigma_attempt.c) ends the attempt.
-   Two integrals are not where this list has them: clipping integrates over curved normals while it
-   has a facet's pieces; and lrcsi_sigma_integrate clips the facets again of which it needs pieces
-   that were not kept. */
+   Two exceptions: lrcsi_sigma_search, if it clips, integrates over curved normals already, while
+   it has a facet's pieces; and lrcsi_sigma_integrate clips those facets again whose pieces it
+   needs, because pieces are not kept. */
 #include "integrate/sigma.h"
 
 #include <math.h>

@@ -34,7 +34,7 @@ void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts)
 /* Clips. If only the sum reads the visible areas, facets that are entirely visible or hidden get
    only an answer and no area; tessellation errors and areas_apply_proofs need the areas of all
    facets. */
-static int find_by_clipping(lrcsi_sigma *run, lrcsi_meter *meter)
+static int clip_facets(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
@@ -67,7 +67,7 @@ static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_at
             attempt->end = LRCSI_ATTEMPT_REFUSED;
             return LRCS_OK;
         }
-        status = find_by_clipping(run, &attempt->meter);
+        status = clip_facets(run, &attempt->meter);
     }
     if (status == LRCS_E_MEMORY) {
         attempt->end = LRCSI_ATTEMPT_NO_MEMORY;
@@ -81,7 +81,7 @@ static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_at
 /* Draws one raster of the attempt's size, or of half of it, a quarter and so on until it fits into
    the work area. Areas are taken from its samples alone, or from what is proved of each facet and,
    where that decides nothing, from samples. */
-static int find_by_drawing(lrcsi_sigma *run, lrcsi_attempts *attempts)
+static int draw_raster(lrcsi_sigma *run, lrcsi_attempts *attempts)
 {
     lrcsi_attempt *attempt = &attempts->current;
     lrcs_progress *progress = run->request.options->progress;
@@ -128,7 +128,7 @@ int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts)
                                    .flags = attempt->fallback ? LRCS_FLAG_MEMORY_FALLBACK : 0u};
     if (attempt->method == LRCS_METHOD_ZBUFFER) {
         attempt->end = LRCSI_ATTEMPT_FOUND;
-        return find_by_drawing(run, attempts);
+        return draw_raster(run, attempts);
     }
     lrcsi_sigma_release_decisions(run, attempts);
     return search_by_clipping(run, &attempts->cost, attempt);

@@ -22,7 +22,7 @@
 #include "base/work.h"
 #include "view/separation.h"
 
-/* A shorter difference or cross product is due to rounding, and its direction says nothing. Any
+/* A shorter difference or cross product is due to rounding, and has no meaningful direction. Any
    value is right: planes across any direction may be tried. */
 #define NORMAL_MIN 0x1p-30
 

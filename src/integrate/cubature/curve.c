@@ -150,7 +150,7 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        curve_terms[f] = (lrcsi_curve_terms){.glint = 0};
         lrcsi_progress_report(options->progress, LRCS_PROGRESS_INTEGRATE, f,
                               view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
@@ -237,7 +237,7 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
-        curve_terms[f] = (lrcsi_curve_terms){0, 0, 0, 0, 0, 0, 0, 0, 0};
+        curve_terms[f] = (lrcsi_curve_terms){.glint = 0};
         lrcsi_progress_report(options->progress,
                               sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
                               count);

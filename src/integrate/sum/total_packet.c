@@ -316,8 +316,8 @@ static void select_facets(const lrcsi_total_run *run, const total_batch *batch, 
    2. adds selected front sides;
    3. adds selected back sides too if they reflect; otherwise only their areas;
    4. adds the others one by one: facets near grazing incidence or in the bright lobe of a narrow
-      glint, and those of curved walls; for these also the tessellation error, while run->patches
-      holds their patch. */
+      glint, and those of curved walls; for these also the tessellation error, which needs the same
+      patch. */
 static void add_lanes(lrcsi_total_run *run, total_batch *batch, uint32_t start, uint32_t count)
 {
     const uint32_t *facet = run->view->prepared->batches.facet + start;

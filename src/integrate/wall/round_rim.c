@@ -119,7 +119,8 @@ static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32
     }
 }
 
-/* Adds the margin of a side of the rim, or what it is at most, to a facet under it. */
+/* Adds the margin of a side of the rim to a facet under it or, if that is uncertain, a bound on it
+   to the facet's error. */
 static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round_terms *terms)
 {
     const lrcsi_view *view = job->wall->view;

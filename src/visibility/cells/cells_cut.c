@@ -310,13 +310,13 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
 static void cut_facets(lrcsi_division *d, const lrcsi_cell *cell, const cut_strip *strip,
                        lrcsi_cell *left, lrcsi_cell *right)
 {
-    double g = lrcsi_division_tolerance(d, left);
+    double tolerance = lrcsi_division_tolerance(d, left);
     uint32_t *of_left = cell->facet + cell->facet_count;
     left->facet_count = right->facet_count = 0;
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t index = cell->facet[i];
         const lrcsi_cells_facet *f = &d->facet[index];
-        double w = f->err + g + strip->width;
+        double w = f->err + tolerance + strip->width;
         double range[2];
         facet_range(f, left->cut_line, range);
         int on_left = range[1] > -w;
@@ -325,8 +325,8 @@ static void cut_facets(lrcsi_division *d, const lrcsi_cell *cell, const cut_stri
             if (strip->along && d->wanted[index]) {
                 charge_cut(d, index, range[0], range[1], strip);
             }
-            on_left = !facet_beyond(f, &left->shape, f->err + g);
-            on_right = !facet_beyond(f, &right->shape, f->err + g);
+            on_left = !facet_beyond(f, &left->shape, f->err + tolerance);
+            on_right = !facet_beyond(f, &right->shape, f->err + tolerance);
         }
         of_left[left->facet_count] = index;
         left->facet_count += on_left != 0;

@@ -100,8 +100,8 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
 
 /* The error of a segment in a needle's frame, given the error of its ends. The box reaches 3, so
    that 24 u of 4.5 bounds the rounding of the ends, of the line, and of the distance of a point of
-   the needle from the line. An error that is large compared with the margin of the box around the
-   needle says nothing: the segment may then be anywhere. */
+   the needle from the line. If the error is large compared with the margin of the box around the
+   needle, nothing is known: the segment may be anywhere. */
 static double needle_segment_err(double end_err)
 {
     return end_err < 0.25 ? 192 * LRCSI_U + 2 * end_err : 4;
