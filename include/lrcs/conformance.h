@@ -31,13 +31,13 @@ typedef struct lrcs_host_kit_case {
     int tier;
     double quaternion[4], direction[3], azel_deg[2];
     double sigma_m2, bound_m2, float_m2, edge_m2;
-    double side_m;    /* of the square that is shown */
-    uint32_t image;   /* side of its pictures in pixels, 0 for none */
-    double theirs_m2; /* may be NAN */
-    double printed;   /* the same number as in the table of answers */
-    int given;        /* 1 if there is an answer */
-    int grade;        /* lrcs_host_grade */
-    int explained;    /* the finding that explains it, from 1; 0 for none */
+    double side_m;         /* of the square that is shown */
+    uint32_t image;        /* side of its pictures in pixels, 0 for none */
+    double answer_m2;      /* sigma that was answered; may be NAN */
+    double answer_printed; /* the number in the table of answers: in dBsm if that is its unit */
+    int given;             /* 1 if there is an answer */
+    int grade;             /* lrcs_host_grade */
+    int explained;         /* the finding that explains it, from 1; 0 for none */
     lrcs_pose pose;
     lrcs_facet_record *records; /* the truth's; NULL until they are needed */
     double peak;                /* their largest f_r cos */
@@ -74,46 +74,47 @@ void lrcs_host_kit_free(lrcs_host_kit *kit);
 typedef struct lrcs_host_finding {
     const char *name; /* "no-shadows" */
     char text[1024];
-    double factor;      /* a constant factor in addition; 1 for none */
-    uint32_t explained; /* number of failing cases that it explains */
-    double rest;        /* median share of their differences that remains */
+    double factor;         /* a constant factor in addition; 1 for none */
+    uint32_t explained;    /* number of failing cases that it explains */
+    double residual_share; /* median share of their differences that remains */
 } lrcs_host_finding;
 
-/* How the visible area of a facet differs. */
-enum lrcs_host_facet_way {
-    LRCS_HOST_FACET_SHOWN,
-    LRCS_HOST_FACET_LOST,
-    LRCS_HOST_FACET_WHOLE,
-    LRCS_HOST_FACET_PART,
-    LRCS_HOST_FACET_LARGER,
-    LRCS_HOST_FACET_ELSEWHERE,
-    LRCS_HOST_FACET_WAYS
+/* How the visible area of a facet differs: as it was answered, against the truth. */
+enum lrcs_host_facet_kind {
+    LRCS_HOST_FACET_SHOWN,     /* visible; hidden in truth */
+    LRCS_HOST_FACET_LOST,      /* hidden; visible in truth */
+    LRCS_HOST_FACET_WHOLE,     /* entirely visible; partly hidden in truth */
+    LRCS_HOST_FACET_PART,      /* partly hidden; entirely visible in truth */
+    LRCS_HOST_FACET_LARGER,    /* larger than all of the facet */
+    LRCS_HOST_FACET_ELSEWHERE, /* partly hidden, by another area than in truth */
+    LRCS_HOST_FACET_KINDS
 };
-#define LRCS_HOST_KIT_NAMED  8u  /* number of facets, and of images, that are named */
-#define LRCS_HOST_KIT_TOP    3u  /* number of facets named for each image */
-#define LRCS_HOST_IMAGE_WAYS 10u /* in which images agree, the first one being right */
+#define LRCS_HOST_KIT_NAMED 8u /* number of facets, and of images, that are named */
+#define LRCS_HOST_KIT_TOP   3u /* number of facets named for each image */
+/* Conventions for the rows, columns and facet numbers of images; the first one is the kit's. */
+#define LRCS_HOST_IMAGE_CONVENTIONS 10u
 
 typedef struct lrcs_host_kit_facet {
     const lrcs_host_kit_case *one;
     uint32_t facet;
-    double theirs_m2, truth_m2;
+    double answer_m2, truth_m2;
     double sigma_m2; /* the change of sigma */
-    double weight;   /* the same, as a share of what the case is allowed */
+    double weight;   /* the same, as a share of the case's allowed error */
     int failed;      /* 1 if its case fails */
-    int way;         /* lrcs_host_facet_way */
+    int kind;        /* lrcs_host_facet_kind */
 } lrcs_host_kit_facet;
 
 typedef struct lrcs_host_kit_facets {
-    uint32_t cases;                     /* that have facets */
-    uint32_t way[LRCS_HOST_FACET_WAYS]; /* number of facets that differ in each way */
-    uint32_t cosines, turned;           /* number of cosines; of those, with the opposite sign */
-    double cosine_most;                 /* largest |difference|, without those of opposite sign */
-    uint32_t worsts;
+    uint32_t cases;                             /* that have facets */
+    uint32_t kind_count[LRCS_HOST_FACET_KINDS]; /* number of facets with each kind of difference */
+    uint32_t cosines, cosines_negated; /* number of cosines; of those, with the opposite sign */
+    double cosine_error_max;           /* largest |difference|, without those of opposite sign */
+    uint32_t worst_count;
     lrcs_host_kit_facet worst[LRCS_HOST_KIT_NAMED]; /* of failing cases first, then by the change of
                                                        sigma, the largest first */
 } lrcs_host_kit_facets;
 
-/* An image that does not agree with the truth in any way. */
+/* An image that does not agree with the truth in any of the conventions. */
 typedef struct lrcs_host_kit_image {
     const lrcs_host_kit_case *one;
     double agree;                      /* share of the non-empty pixels that agree */
@@ -122,10 +123,12 @@ typedef struct lrcs_host_kit_image {
 } lrcs_host_kit_image;
 
 typedef struct lrcs_host_kit_items {
-    uint32_t images, handed, differ;
-    uint32_t way[LRCS_HOST_IMAGE_WAYS]; /* number of images that agree in each way */
+    uint32_t images;        /* number of cases that have an image */
+    uint32_t images_found;  /* of those, how many were answered with one */
+    uint32_t images_differ; /* of those, how many do not agree in any convention */
+    uint32_t convention_count[LRCS_HOST_IMAGE_CONVENTIONS]; /* of those that agree in each */
     uint32_t named;
-    lrcs_host_kit_image image[LRCS_HOST_KIT_NAMED];
+    lrcs_host_kit_image image[LRCS_HOST_KIT_NAMED]; /* the first `named` of those that differ */
 } lrcs_host_kit_items;
 
 typedef struct lrcs_host_judgement {
@@ -165,20 +168,22 @@ int lrcs_host_judge_passed(const lrcs_host_judgement *judgement);
 int lrcs_host_judge_asked(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
 int lrcs_host_judge_failed(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
 
-/* What a failing case that no finding explains lacks. */
-enum lrcs_host_lack {
-    LRCS_HOST_LACK_NONE,
-    LRCS_HOST_LACK_ANSWER,
-    LRCS_HOST_LACK_NUMBER,
-    LRCS_HOST_LACK_SIGN,
-    LRCS_HOST_LACK_REASON
+/* Why a failing case has no finding that explains it. */
+enum lrcs_host_unexplained {
+    LRCS_HOST_UNEXPLAINED_NONE,    /* it does not fail, or is explained */
+    LRCS_HOST_UNEXPLAINED_MISSING, /* there is no answer */
+    LRCS_HOST_UNEXPLAINED_NOT_A_NUMBER,
+    LRCS_HOST_UNEXPLAINED_NEGATIVE,
+    LRCS_HOST_UNEXPLAINED_UNKNOWN /* the cause was not found */
 };
-int lrcs_host_judge_lack(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
+int lrcs_host_judge_unexplained(const lrcs_host_judgement *judgement,
+                                const lrcs_host_kit_case *one);
 
-/* A class, and the ways in words; a verdict on the cosines, NULL if there were none. */
+/* A class, a kind of difference and a convention in words; a verdict on the cosines, NULL if there
+   were none. */
 const char *lrcs_host_grade_text(int grade);
-const char *lrcs_host_facet_way_text(int way);
-const char *lrcs_host_image_way_text(int way);
+const char *lrcs_host_facet_kind_text(int kind);
+const char *lrcs_host_image_convention_text(int convention);
 const char *lrcs_host_cosines_text(const lrcs_host_kit_facets *facets);
 
 #endif

@@ -10,15 +10,15 @@
 #define LRCS_HOST_CONVERGENCE_MESHES   6
 #define LRCS_HOST_CONVERGENCE_REPEATS  25
 
-/* The kinds of settings ("dials"). */
-enum lrcs_host_dial {
-    LRCS_HOST_DIAL_ZBUFFER, /* its resolution */
-    LRCS_HOST_DIAL_MESH,    /* how finely shapes are tessellated */
-    LRCS_HOST_DIAL_PREVIEW, /* the tolerance, met by an estimate: LRCS_ACCEPT_ESTIMATE */
-    LRCS_HOST_DIAL_FACET,   /* no self-shadowing */
-    LRCS_HOST_DIAL_EXACT,
-    LRCS_HOST_DIAL_CLOSED, /* no facets: closed forms of shapes that nothing hides */
-    LRCS_HOST_DIALS
+/* The kinds of settings. */
+enum lrcs_host_convergence_kind {
+    LRCS_HOST_CONVERGENCE_KIND_ZBUFFER, /* its resolution */
+    LRCS_HOST_CONVERGENCE_KIND_MESH,    /* how finely shapes are tessellated */
+    LRCS_HOST_CONVERGENCE_KIND_PREVIEW, /* the tolerance, met by an estimate: LRCS_ACCEPT_ESTIMATE */
+    LRCS_HOST_CONVERGENCE_KIND_FACET,   /* no self-shadowing */
+    LRCS_HOST_CONVERGENCE_KIND_EXACT,
+    LRCS_HOST_CONVERGENCE_KIND_CLOSED, /* no facets: closed forms of shapes that nothing hides */
+    LRCS_HOST_CONVERGENCE_KINDS
 };
 #define LRCS_HOST_PREVIEW_NAME_TEXT "by estimate" /* the names of previews begin so */
 
@@ -31,7 +31,7 @@ typedef struct lrcs_host_convergence_mesh {
 
 /* One setting, measured. */
 typedef struct lrcs_host_convergence_setting {
-    int dial;
+    int kind; /* lrcs_host_convergence_kind */
     char name[48];
     int method;
     uint32_t resolution; /* 0 for no raster */
@@ -45,14 +45,14 @@ typedef struct lrcs_host_convergence_setting {
     double estimate_m2; /* negative if there is none */
     double bound_m2; /* bound of |sigma - truth|, without that of the truth itself; negative if not
                         known */
-    int whole;       /* 1 if the bound is against the true shapes, not against the facets */
+    int true_shapes; /* 1 if the bound is against the true shapes, not against the facets */
     uint32_t flags;  /* of the result */
 } lrcs_host_convergence_setting;
 
 typedef struct lrcs_host_convergence_truth {
     double sigma_m2, bound_m2;
-    int whole;     /* 1 if the bound is against the true shapes, not against the facets */
-    char text[96]; /* its origin */
+    int true_shapes; /* 1 if the bound is against the true shapes, not against the facets */
+    char text[96];   /* its origin */
 } lrcs_host_convergence_truth;
 
 /* All zero but for what is given. */

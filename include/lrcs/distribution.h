@@ -36,8 +36,8 @@ typedef struct lrcs_distribution_value {
 
 typedef struct lrcs_distribution {
     uint64_t rows;
-    double weight; /* of all rows */
-    int banded;    /* 1 if rows have material intervals */
+    double weight;     /* of all rows */
+    int has_intervals; /* 1 if rows have material intervals */
     lrcs_distribution_value mean_m2;
     double standard_error_m2; /* of the mean of rows of equal weight, as if they were drawn at
                                  random; NAN of one row. ESTIMATE */
@@ -47,8 +47,8 @@ typedef struct lrcs_distribution {
         bins; /* of equal width in dB; bin i is (edge[i], edge[i + 1]]; 0 if every sigma is 0 */
     double edge_dbsm[LRCS_DISTRIBUTION_BINS + 1], edge_m2[LRCS_DISTRIBUTION_BINS + 1];
     double cdf[LRCS_DISTRIBUTION_ENDS]
-              [LRCS_DISTRIBUTION_BINS + 1];        /* share with sigma <= edge_m2 */
-    double share[LRCS_DISTRIBUTION_BINS], fullest; /* of each bin, and the largest */
+              [LRCS_DISTRIBUTION_BINS + 1];              /* share with sigma <= edge_m2 */
+    double share[LRCS_DISTRIBUTION_BINS], largest_share; /* of each bin, and the largest of these */
 } lrcs_distribution;
 
 /* Computes a distribution.

@@ -34,8 +34,8 @@ typedef struct lrcs_host_plan_axis {
     const char *key; /* of lrcs_host_plan_text: "az", "vary" */
     char name[128];  /* of its column: "az_deg", "foil.A" */
     lrcs_host_range range;
-    char whom[100]; /* of an axis of the scene: the part or material */
-    int parameter;  /* and which of its numbers */
+    char subject[100]; /* of an axis of the scene: the part or material */
+    int parameter;     /* and which of its numbers */
 } lrcs_host_plan_axis;
 
 typedef struct lrcs_host_plan {
@@ -87,10 +87,11 @@ void lrcs_host_plan_free(lrcs_host_plan *plan);
 int lrcs_host_plan_check(const lrcs_host_plan *plan, const lrcs_host_scene *base,
                          lrcs_host_error *error);
 
-/* A pose from its text: way is "direction" (x,y,z), "azel" (AZ,EL, deg), "euler" (SEQ:a,b,c, deg)
-   or "quaternion" (w,x,y,z). Status: LRCS_OK; LRCS_E_NAME (the way); LRCS_E_ARGUMENT: the sentence
-   begins with the way. */
-int lrcs_host_pose_read(const char *way, const char *text, lrcs_pose *pose, lrcs_host_error *error);
+/* A pose from its text: kind is "direction" (x,y,z), "azel" (AZ,EL, deg), "euler" (SEQ:a,b,c, deg)
+   or "quaternion" (w,x,y,z). Status: LRCS_OK; LRCS_E_NAME (the kind); LRCS_E_ARGUMENT: the sentence
+   begins with the kind. */
+int lrcs_host_pose_read(const char *kind, const char *text, lrcs_pose *pose,
+                        lrcs_host_error *error);
 
 /* ---- the rows of a plan ---- */
 

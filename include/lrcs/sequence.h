@@ -18,7 +18,7 @@ typedef struct lrcs_setting {
     int kind;
     uint32_t resolution;
     double forecast; /* s */
-    int over;        /* 1: completed, or not worth trying any more */
+    int done;        /* 1: completed, or not worth trying any more */
 } lrcs_setting;
 
 typedef struct lrcs_sequence {
@@ -33,14 +33,14 @@ typedef struct lrcs_sequence {
 lrcs_sequence lrcs_sequence_make(void);
 
 /* The setting that is tried next, with `left` seconds to go: the one with the least expected time
-   among those not yet over (the first of equal ones), or -1 if there are none. But once the clock
+   among those not yet done (the first of equal ones), or -1 if there are none. But once the clock
    of this machine is known from a completed setting, the last kind comes before rasters whose
    result it makes needless, if it is expected to take at most a quarter of the time left; or half
    of it, once a raster with a bound has been timed. */
 int lrcs_sequence_next(const lrcs_sequence *sequence, double left);
 
 /* Records that a setting took so many seconds. Once the last kind is completed without a fallback
-   to a raster (`clipped`), the others are over. */
+   to a raster (`clipped`), the others are done, too. */
 void lrcs_sequence_done(lrcs_sequence *sequence, int setting, double seconds, int clipped);
 
 /* The error by which answers are compared: bound + curvature_estimate. Above a tenth of sigma it

@@ -21,11 +21,11 @@ typedef struct lrcs_host_sweep_chart {
     const lrcs_host_plan *plan;
     const lrcs_host_rows_head *head; /* what it was made from; NULL: not stated */
     double (*row)[2];                /* sigma and bound of every row, m2 */
-    double (*band)[2];  /* the interval of its material uncertainty, m2; NULL if there is none */
-    const char *title;  /* the scene's, or the name of its file */
-    const char *name;   /* in the legend, of all curves, or NULL */
-    const char *accept; /* lrcs_accept_text, or NULL */
-    int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
+    double (*band)[2];     /* the interval of its material uncertainty, m2; NULL if there is none */
+    const char *title;     /* the scene's, or the name of its file */
+    const char *name;      /* in the legend, of all curves, or NULL */
+    const char *accept;    /* lrcs_accept_text, or NULL */
+    int materials_assumed; /* 1 if some are illustrative or assumed: no bound includes their error */
     int dbsm, polar, mollweide; /* decibels; curves about a pole; a map in that projection */
     /* chosen */
     lrcs_host_sweep_axis x, y; /* y: a single value if only one quantity varies */

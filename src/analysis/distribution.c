@@ -24,12 +24,12 @@ static int by_rising_sigma(const void *a, const void *b)
 
 static int rows_check(const lrcs_distribution_row *row, uint64_t count)
 {
-    const int banded = count > 0 && !isnan(row[0].low_m2);
+    const int has_intervals = count > 0 && !isnan(row[0].low_m2);
     double weight = 0.0;
     for (uint64_t i = 0; i < count; i++) {
         const lrcs_distribution_row *one = &row[i];
-        int interval = banded ? one->low_m2 >= 0.0 && one->high_m2 >= 0.0
-                              : isnan(one->low_m2) && isnan(one->high_m2);
+        int interval = has_intervals ? one->low_m2 >= 0.0 && one->high_m2 >= 0.0
+                                     : isnan(one->low_m2) && isnan(one->high_m2);
         if (!(one->sigma_m2 >= 0.0 && one->sigma_m2 <= DBL_MAX) || !(one->bound_m2 >= 0.0) ||
             !(one->weight >= 0.0 && one->weight <= DBL_MAX) || !interval) {
             return LRCS_E_NUMBER;
@@ -153,7 +153,7 @@ int lrcs_distribution_make(lrcs_distribution_row *row, lrcs_distribution_row *ro
         return status;
     }
     lrcs_distribution *d = distribution;
-    *d = (lrcs_distribution){.rows = count, .banded = !isnan(row[0].low_m2)};
+    *d = (lrcs_distribution){.rows = count, .has_intervals = !isnan(row[0].low_m2)};
     for (int k = 0; k < LRCS_DISTRIBUTION_PERCENTS; k++) {
         d->percent[k] = distribution_percent[k];
     }
@@ -168,14 +168,14 @@ int lrcs_distribution_make(lrcs_distribution_row *row, lrcs_distribution_row *ro
     mean_make(row, d);
     qsort(row, count, sizeof *row, by_rising_sigma);
     bins_choose(row, d);
-    for (int which = 0; which <= (d->banded ? LRCS_DISTRIBUTION_HIGH : LRCS_DISTRIBUTION_MOST);
-         which++) {
+    for (int which = 0;
+         which <= (d->has_intervals ? LRCS_DISTRIBUTION_HIGH : LRCS_DISTRIBUTION_MOST); which++) {
         percentiles_at(row, room, which, d);
     }
     const double *value = d->cdf[LRCS_DISTRIBUTION_VALUE];
     for (uint32_t i = 0; i < d->bins; i++) {
         d->share[i] = value[i + 1] - value[i];
-        d->fullest = fmax(d->fullest, d->share[i]);
+        d->largest_share = fmax(d->largest_share, d->share[i]);
     }
     return LRCS_OK;
 }

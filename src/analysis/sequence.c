@@ -61,15 +61,15 @@ int lrcs_sequence_next(const lrcs_sequence *sequence, double left)
     const double margin = sequence->proof_scale > 0.0 ? LAST_MARGIN : LAST_MARGIN_UNTIMED;
     int next = -1, begun = 0;
     for (int i = 0; i < sequence->count; i++) {
-        begun |= sequence->setting[i].over;
-        if (!sequence->setting[i].over &&
+        begun |= sequence->setting[i].done;
+        if (!sequence->setting[i].done &&
             (next < 0 || sequence_expected(sequence, i) < sequence_expected(sequence, next))) {
             next = i;
         }
     }
     for (int i = 0; i < sequence->count && begun; i++) {
         const lrcs_setting *s = &sequence->setting[i];
-        if (s->kind == LRCS_SETTING_LAST && !s->over &&
+        if (s->kind == LRCS_SETTING_LAST && !s->done &&
             margin * sequence_expected(sequence, i) <= left) {
             next = i;
         }
@@ -82,7 +82,7 @@ void lrcs_sequence_done(lrcs_sequence *sequence, int setting, double seconds, in
     lrcs_setting *s = &sequence->setting[setting];
     double draw = draw_forecast(sequence, s);
     double proof = s->forecast - draw;
-    s->over = 1;
+    s->done = 1;
     if (proof > 0.0) {
         sequence->proof_scale =
             fmax(seconds - sequence->samples_scale * draw, PROOF_LEAST * seconds) / proof;
@@ -95,7 +95,7 @@ void lrcs_sequence_done(lrcs_sequence *sequence, int setting, double seconds, in
         int same = other->resolution == s->resolution && other->forecast == s->forecast;
         if ((s->kind == LRCS_SETTING_LAST && clipped) ||
             (s->kind != LRCS_SETTING_LAST && s->forecast > 0.0 && same)) {
-            other->over = 1;
+            other->done = 1;
         }
     }
 }

@@ -136,7 +136,7 @@ static void material_intervals_are_carried_through(void **state)
         row[i] = (lrcs_distribution_row){sigma, 0.0, 1.0, 0.5 * sigma, 2.0 * sigma, i};
     }
     assert_int_equal(lrcs_distribution_make(row, room, ROWS, &d), LRCS_OK);
-    assert_true(d.banded);
+    assert_true(d.has_intervals);
     for (int k = 0; k < LRCS_DISTRIBUTION_PERCENTS; k++) {
         check_same(d.percentile_m2[k].at[LRCS_DISTRIBUTION_LOW], 1.0 * d.percent[k]);
         check_same(d.percentile_m2[k].at[LRCS_DISTRIBUTION_HIGH], 4.0 * d.percent[k]);

@@ -80,7 +80,7 @@ static void the_truth_of_a_single_shape_is_its_closed_form(void **state)
     lrcs_closed_form closed;
     assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
     assert_string_equal(all->truth.text, "the closed form of the cylinder");
-    assert_true(all->truth.whole);
+    assert_true(all->truth.true_shapes);
     assert_true(fabs(all->truth.sigma_m2 - closed.sigma_m2) <= 1e-12 * closed.sigma_m2);
     assert_true(all->meshes > 1 && all->mesh[0].digits == 1);
     assert_true(lrcs_host_convergence_finest(all)->scene.scene.facet_count >
@@ -102,8 +102,9 @@ static void without_curved_shapes_there_is_one_mesh(void **state)
     assert_int_equal(all->meshes, 1);
     assert_int_equal(all->mesh[0].digits, 0);
     for (uint32_t i = 0; i < all->settings; i++) {
-        exact += all->setting[i].dial == LRCS_HOST_DIAL_EXACT && all->setting[i].error_m2 == 0.0;
-        assert_true(all->setting[i].dial != LRCS_HOST_DIAL_MESH);
+        exact += all->setting[i].kind == LRCS_HOST_CONVERGENCE_KIND_EXACT &&
+                 all->setting[i].error_m2 == 0.0;
+        assert_true(all->setting[i].kind != LRCS_HOST_CONVERGENCE_KIND_MESH);
     }
     assert_int_equal(exact, 1);
     assert_string_equal(all->truth.text, "exact on the mesh, 4 facets");

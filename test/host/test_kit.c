@@ -166,9 +166,9 @@ static void facets_that_differ_are_named(void **state)
     assert_int_equal(facets->cases, CASES);
     assert_int_equal(facets->cosines, 2 * CASES);
     assert_string_equal(lrcs_host_cosines_text(facets), "double precision");
-    assert_int_equal(facets->worsts, 1);
+    assert_int_equal(facets->worst_count, 1);
     assert_int_equal(facets->worst[0].facet, 1);
-    assert_int_equal(facets->worst[0].way, LRCS_HOST_FACET_LOST);
+    assert_int_equal(facets->worst[0].kind, LRCS_HOST_FACET_LOST);
     check_rel(facets->worst[0].sigma_m2, 0.5 * sigma[CASES - 1], 1e-12);
     lrcs_host_kit_free(&judgement.kit);
 }
@@ -187,9 +187,9 @@ static void images_upside_down_are_seen(void **state)
     fclose(out);
     assert_int_equal(lrcs_host_judge_items(&judgement, ".", &error), LRCS_OK);
     assert_int_equal(judgement.by_item.images, 1);
-    assert_int_equal(judgement.by_item.handed, 1);
-    assert_int_equal(judgement.by_item.way[1], 1);
-    assert_non_null(strstr(lrcs_host_image_way_text(1), "upside down"));
+    assert_int_equal(judgement.by_item.images_found, 1);
+    assert_int_equal(judgement.by_item.convention_count[1], 1);
+    assert_non_null(strstr(lrcs_host_image_convention_text(1), "upside down"));
     assert_int_equal(lrcs_host_judge_items(&judgement, "nowhere", &error), LRCS_E_SYSTEM);
     assert_int_equal(remove("plate.a3.item.u32"), 0);
     assert_int_equal(remove("truth/plate.a3.item.u32"), 0);

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* How many facets or images differ, and in which way: those that do. */
-static void way_json(lrcs_host_json *json, const char *text, uint32_t count)
+static void count_json(lrcs_host_json *json, const char *text, uint32_t count)
 {
     if (count > 0) {
         lrcs_host_json_put(json, "{text=%s count=%u}", text, count);
@@ -16,19 +16,19 @@ static void facets_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
     const lrcs_host_kit_facets *facets = &job->by_facet;
     lrcs_host_json_put(json, "facets={\ncases=%u differ=[\n", facets->cases);
-    for (int way = 0; way < LRCS_HOST_FACET_WAYS; way++) {
-        way_json(json, lrcs_host_facet_way_text(way), facets->way[way]);
+    for (int kind = 0; kind < LRCS_HOST_FACET_KINDS; kind++) {
+        count_json(json, lrcs_host_facet_kind_text(kind), facets->kind_count[kind]);
     }
     lrcs_host_json_put(json, "] cos_theta=%s cos_theta_off=%g worst=[\n",
                        lrcs_host_cosines_text(facets),
-                       facets->cosines > 0 ? facets->cosine_most : (double)NAN);
-    for (uint32_t i = 0; i < facets->worsts; i++) {
+                       facets->cosines > 0 ? facets->cosine_error_max : (double)NAN);
+    for (uint32_t i = 0; i < facets->worst_count; i++) {
         const lrcs_host_kit_facet *off = &facets->worst[i];
         lrcs_host_json_put(json, "{scene=%s attitude=%s facet=%u way=%s",
                            job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
-                           lrcs_host_facet_way_text(off->way));
+                           lrcs_host_facet_kind_text(off->kind));
         lrcs_host_json_put(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
-                           off->theirs_m2, off->sigma_m2);
+                           off->answer_m2, off->sigma_m2);
     }
     lrcs_host_json_put(json, "]}");
 }
@@ -37,9 +37,9 @@ static void items_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
     const lrcs_host_kit_items *items = &job->by_item;
     lrcs_host_json_put(json, "items={\nasked=%u given=%u differ=%u ways=[\n", items->images,
-                       items->handed, items->differ);
-    for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
-        way_json(json, lrcs_host_image_way_text(way), items->way[way]);
+                       items->images_found, items->images_differ);
+    for (int i = 0; i < (int)LRCS_HOST_IMAGE_CONVENTIONS; i++) {
+        count_json(json, lrcs_host_image_convention_text(i), items->convention_count[i]);
     }
     lrcs_host_json_put(json, "] worst=[\n");
     for (uint32_t i = 0; i < items->named; i++) {
@@ -71,7 +71,7 @@ void cli_compare_json(FILE *out, const void *context)
         const lrcs_host_finding *finding = &job->finding[i];
         lrcs_host_json_put(&json, "{name=%s text=%s factor=%g explains=%u leaves=%g}",
                            finding->name, finding->text, finding->factor, finding->explained,
-                           finding->rest);
+                           finding->residual_share);
     }
     lrcs_host_json_put(&json, "]");
     if (asked->facets) {
@@ -89,7 +89,7 @@ void cli_compare_json(FILE *out, const void *context)
         lrcs_host_json_put(&json,
                            "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
                            job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
-                           one->given ? one->theirs_m2 : (double)NAN,
+                           one->given ? one->answer_m2 : (double)NAN,
                            lrcs_host_judge_allowed(one, job->grade, job->pixels));
         lrcs_host_json_put(&json, "class=%s passed=%d finding=%s}",
                            lrcs_host_grade_text(one->grade), !lrcs_host_judge_failed(job, one),
@@ -127,7 +127,7 @@ static void tier_junit(FILE *out, const lrcs_host_judgement *job, uint32_t tier)
                 one->attitude);
         if (lrcs_host_judge_failed(job, one) && one->given) {
             lrcs_host_number_put(out, "<failure message=\"expected ", one->sigma_m2);
-            lrcs_host_number_put(out, " m2, found ", one->theirs_m2);
+            lrcs_host_number_put(out, " m2, found ", one->answer_m2);
             fputs("; ", out);
             xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
             fputs("\"/>", out);

@@ -16,7 +16,7 @@ static void scene_print(const lrcs_host_judgement *job, const lrcs_host_kit_scen
     double most = -1.0;
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
         const compare_case *one = &job->kit.list[i];
-        double off = fabs(one->theirs_m2 - one->sigma_m2);
+        double off = fabs(one->answer_m2 - one->sigma_m2);
         double allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
         double share = off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
         count[one->grade]++;
@@ -34,7 +34,7 @@ static void scene_print(const lrcs_host_judgement *job, const lrcs_host_kit_scen
             printf("      .");
         }
     }
-    double off = worst ? fabs(worst->theirs_m2 - worst->sigma_m2) : 0.0;
+    double off = worst ? fabs(worst->answer_m2 - worst->sigma_m2) : 0.0;
     if (worst && (off == 0.0 || (worst->sigma_m2 > 0.0 && isfinite(off)))) {
         printf("   %8.1e  %s", off == 0.0 ? 0.0 : off / worst->sigma_m2, worst->attitude);
     } else if (worst) {
@@ -70,16 +70,16 @@ static void findings_print(const lrcs_host_judgement *job)
                 printf(" %d", tier);
             }
         }
-        if (finding->rest < 1.0) {
-            printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
+        if (finding->residual_share < 1.0) {
+            printf("; leaves %.2g %% of their differences", 100.0 * finding->residual_share);
         }
         putchar('\n');
     }
 }
 
 /* Prints how many cases have a fault, and the first of them: "box nose, box a, ..". */
-static void lack_print(const lrcs_host_judgement *job, int lack, uint32_t count, const char *title,
-                       const char *what)
+static void reason_print(const lrcs_host_judgement *job, int reason, uint32_t count,
+                         const char *title, const char *what)
 {
     uint32_t named = 0;
     if (count == 0) {
@@ -88,7 +88,7 @@ static void lack_print(const lrcs_host_judgement *job, int lack, uint32_t count,
     printf("%-12s %lu %s: ", title, (unsigned long)count, what);
     for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (lrcs_host_judge_lack(job, one) == lack && named++ < NAMES_MOST) {
+        if (lrcs_host_judge_unexplained(job, one) == reason && named++ < NAMES_MOST) {
             printf("%s%s %s", named > 1 ? ", " : "", job->kit.scene[one->scene].name,
                    one->attitude);
         }
@@ -106,13 +106,13 @@ static void unexplained_print(const lrcs_host_judgement *job)
            plural(job->unexplained));
     for (uint32_t i = 0; i < job->kit.cases && named < NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (lrcs_host_judge_lack(job, one) != LRCS_HOST_LACK_REASON) {
+        if (lrcs_host_judge_unexplained(job, one) != LRCS_HOST_UNEXPLAINED_UNKNOWN) {
             continue;
         }
         printf("             %s %s: %.4g m2, truth %.4g", job->kit.scene[one->scene].name,
-               one->attitude, one->theirs_m2, one->sigma_m2);
+               one->attitude, one->answer_m2, one->sigma_m2);
         if (one->sigma_m2 > 0.0) {
-            printf(" (%.3g of it)", one->theirs_m2 / one->sigma_m2);
+            printf(" (%.3g of it)", one->answer_m2 / one->sigma_m2);
         }
         printf(", allowed %.2g\n", lrcs_host_judge_allowed(one, job->grade, job->pixels));
         named++;
@@ -135,24 +135,24 @@ static void facets_table(const lrcs_host_judgement *job, const lrcs_host_kit_fac
 {
     const char *cosines = lrcs_host_cosines_text(facets);
     printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
-           facets->worsts == 0 ? ": none differs by more than it is allowed" : "");
-    for (int way = 0; way < LRCS_HOST_FACET_WAYS; way++) {
-        if (facets->way[way] > 0) {
-            printf("             %lu facet%s %s\n", (unsigned long)facets->way[way],
-                   plural(facets->way[way]), lrcs_host_facet_way_text(way));
+           facets->worst_count == 0 ? ": none differs by more than it is allowed" : "");
+    for (int kind = 0; kind < LRCS_HOST_FACET_KINDS; kind++) {
+        if (facets->kind_count[kind] > 0) {
+            printf("             %lu facet%s %s\n", (unsigned long)facets->kind_count[kind],
+                   plural(facets->kind_count[kind]), lrcs_host_facet_kind_text(kind));
         }
     }
     if (cosines) {
         printf("             cos theta: %s (off by at most %.1e, turned signs aside)\n", cosines,
-               facets->cosine_most);
+               facets->cosine_error_max);
     }
-    for (uint32_t i = 0; i < facets->worsts; i++) {
+    for (uint32_t i = 0; i < facets->worst_count; i++) {
         const lrcs_host_kit_facet *off = &facets->worst[i];
         printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
                "sigma\n",
                job->kit.scene[off->one->scene].name, off->one->attitude, (unsigned long)off->facet,
                material_of(job, off->one, off->facet),
-               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->theirs_m2,
+               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->answer_m2,
                off->truth_m2, off->sigma_m2);
     }
 }
@@ -161,12 +161,12 @@ static void items_print(const lrcs_host_judgement *job, const lrcs_host_kit_item
                         const char *folder)
 {
     printf("items        in %s: %lu of %lu images found; %lu differ\n", folder,
-           (unsigned long)items->handed, (unsigned long)items->images,
-           (unsigned long)items->differ);
-    for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
-        if (items->way[way] > 0) {
-            printf("             %lu %s\n", (unsigned long)items->way[way],
-                   lrcs_host_image_way_text(way));
+           (unsigned long)items->images_found, (unsigned long)items->images,
+           (unsigned long)items->images_differ);
+    for (int i = 0; i < (int)LRCS_HOST_IMAGE_CONVENTIONS; i++) {
+        if (items->convention_count[i] > 0) {
+            printf("             %lu %s\n", (unsigned long)items->convention_count[i],
+                   lrcs_host_image_convention_text(i));
         }
     }
     for (uint32_t i = 0; i < items->named; i++) {
@@ -211,11 +211,12 @@ void cli_compare_table(const compare_job *asked)
         }
     }
     uint32_t missing = job->asked - job->given;
-    lack_print(job, LRCS_HOST_LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
-    lack_print(job, LRCS_HOST_LACK_NUMBER, job->not_numbers, "why",
-               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
-    lack_print(job, LRCS_HOST_LACK_SIGN, job->negatives, "why",
-               job->negatives == 1 ? "answer is negative" : "answers are negative");
+    reason_print(job, LRCS_HOST_UNEXPLAINED_MISSING, missing, "missing",
+                 missing == 1 ? "case" : "cases");
+    reason_print(job, LRCS_HOST_UNEXPLAINED_NOT_A_NUMBER, job->not_numbers, "why",
+                 job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
+    reason_print(job, LRCS_HOST_UNEXPLAINED_NEGATIVE, job->negatives, "why",
+                 job->negatives == 1 ? "answer is negative" : "answers are negative");
     findings_print(job);
     unexplained_print(job);
     if (asked->facets) {

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#define CHART_SERIES (3 * LRCS_HOST_DIALS)
+#define CHART_SERIES (3 * LRCS_HOST_CONVERGENCE_KINDS)
 
 /* The quantities of a setting, each a curve. */
 enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
@@ -26,12 +26,13 @@ typedef struct chart_curves {
 
 static const struct {
     int colour, marker;
-} chart_dials[LRCS_HOST_DIALS] = {[LRCS_HOST_DIAL_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
-                                  [LRCS_HOST_DIAL_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
-                                  [LRCS_HOST_DIAL_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
-                                  [LRCS_HOST_DIAL_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
-                                  [LRCS_HOST_DIAL_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
-                                  [LRCS_HOST_DIAL_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
+} chart_kinds[LRCS_HOST_CONVERGENCE_KINDS] = {
+    [LRCS_HOST_CONVERGENCE_KIND_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+    [LRCS_HOST_CONVERGENCE_KIND_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
+    [LRCS_HOST_CONVERGENCE_KIND_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
+    [LRCS_HOST_CONVERGENCE_KIND_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+    [LRCS_HOST_CONVERGENCE_KIND_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
+    [LRCS_HOST_CONVERGENCE_KIND_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
 
 static double setting_quantity(const lrcs_host_convergence_setting *setting, int quantity)
 {
@@ -42,11 +43,11 @@ static double setting_quantity(const lrcs_host_convergence_setting *setting, int
 
 /* 1 if a kind of setting has a curve: some value is known. An estimate that is 0 everywhere only
    means that nothing was sampled. */
-static int curve_known(const lrcs_host_convergence *job, int dial, int quantity)
+static int curve_known(const lrcs_host_convergence *job, int kind, int quantity)
 {
     for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
-        if (job->setting[i].dial == dial &&
+        if (job->setting[i].kind == kind &&
             (value > 0.0 || (value == 0.0 && quantity != CHART_ESTIMATE))) {
             return 1;
         }
@@ -54,7 +55,7 @@ static int curve_known(const lrcs_host_convergence *job, int dial, int quantity)
     return 0;
 }
 
-static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int dial, int quantity,
+static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int kind, int quantity,
                       int named)
 {
     static const char *const what[] = {"error", "bound", "estimate"};
@@ -65,16 +66,16 @@ static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int d
                                  .x = curve->x,
                                  .y = curve->y,
                                  .label = curve->label,
-                                 .colour = chart_dials[dial].colour,
+                                 .colour = chart_kinds[kind].colour,
                                  .marker = quantity == CHART_ESTIMATE ? LRCS_HOST_CROSS
-                                                                      : chart_dials[dial].marker,
+                                                                      : chart_kinds[kind].marker,
                                  .dash = dash[quantity],
                                  .hollow = quantity == CHART_BOUND};
     int method = 0;
     for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
-        method = job->setting[i].dial == dial ? job->setting[i].method : method;
-        if (job->setting[i].dial == dial && value >= 0.0) {
+        method = job->setting[i].kind == kind ? job->setting[i].method : method;
+        if (job->setting[i].kind == kind && value >= 0.0) {
             int has_name = named && all->short_name[i][0];
             curve->x[series->count] = 1e3 * job->setting[i].pose_s;
             curve->y[series->count] = lrcs_host_convergence_relative(job, value);
@@ -82,11 +83,12 @@ static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int d
         }
     }
     /* "zbuffer N: bound", "exact, mesh 1e-k: error" */
-    const char *position = dial == LRCS_HOST_DIAL_MESH      ? ", mesh 1e-k"
-                           : dial == LRCS_HOST_DIAL_ZBUFFER ? " N"
-                                                            : "";
+    const char *position = kind == LRCS_HOST_CONVERGENCE_KIND_MESH      ? ", mesh 1e-k"
+                           : kind == LRCS_HOST_CONVERGENCE_KIND_ZBUFFER ? " N"
+                                                                        : "";
     snprintf(curve->name, sizeof curve->name, "%s%s: %s",
-             dial == LRCS_HOST_DIAL_PREVIEW ? "accepted by estimate" : lrcs_method_text(method),
+             kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW ? "accepted by estimate"
+                                                        : lrcs_method_text(method),
              position, what[quantity]);
 }
 
@@ -97,11 +99,11 @@ static void short_names(const lrcs_host_convergence *job, chart_curves *all)
         const lrcs_host_convergence_setting *one = &job->setting[i];
         char *name = all->short_name[i];
         name[0] = '\0';
-        if (one->dial == LRCS_HOST_DIAL_ZBUFFER) {
+        if (one->kind == LRCS_HOST_CONVERGENCE_KIND_ZBUFFER) {
             snprintf(name, 16, "%lu", (unsigned long)one->resolution);
-        } else if (one->dial == LRCS_HOST_DIAL_MESH) {
+        } else if (one->kind == LRCS_HOST_CONVERGENCE_KIND_MESH) {
             snprintf(name, 16, "1e-%d", job->mesh[one->mesh].digits);
-        } else if (one->dial == LRCS_HOST_DIAL_PREVIEW) {
+        } else if (one->kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW) {
             snprintf(name, 16, "1e-%d", one->digits);
         }
     }
@@ -124,19 +126,19 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
     double floor = lrcs_host_convergence_relative(job, job->truth.bound_m2);
     floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
-    for (int dial = 0; dial < LRCS_HOST_DIALS; dial++) {
+    for (int kind = 0; kind < LRCS_HOST_CONVERGENCE_KINDS; kind++) {
         /* the upper curve has the settings' names; a preview has the bound of its raster, which is
            no reason to choose it */
-        int preview = dial == LRCS_HOST_DIAL_PREVIEW;
-        int bounds = !preview && curve_known(job, dial, CHART_BOUND);
+        int preview = kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW;
+        int bounds = !preview && curve_known(job, kind, CHART_BOUND);
         if (bounds) {
-            curve_add(job, &all, dial, CHART_BOUND, 1);
+            curve_add(job, &all, kind, CHART_BOUND, 1);
         }
-        if (curve_known(job, dial, CHART_ESTIMATE)) {
-            curve_add(job, &all, dial, CHART_ESTIMATE, preview);
+        if (curve_known(job, kind, CHART_ESTIMATE)) {
+            curve_add(job, &all, kind, CHART_ESTIMATE, preview);
         }
-        if (curve_known(job, dial, CHART_ERROR)) {
-            curve_add(job, &all, dial, CHART_ERROR, !bounds && !preview);
+        if (curve_known(job, kind, CHART_ERROR)) {
+            curve_add(job, &all, kind, CHART_ERROR, !bounds && !preview);
         }
     }
     const lrcs_host_chart chart = {
@@ -149,7 +151,7 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
         .x_log = 1,
         .y_log = 1,
         .floor = floor,
-        .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
+        .floor_name = job->truth.true_shapes ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};
     return cli_chart_put(out, &chart, png, error);

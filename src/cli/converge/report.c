@@ -67,9 +67,9 @@ converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
         lrcs_host_append(sentence.text, sizeof sentence.text, "%s %s", verb,
                          one ? one->name : "none of these");
         if (one) {
-            lrcs_host_append(sentence.text, sizeof sentence.text, " (%.3g ms%s)", 1e3 * one->pose_s,
-                             one->dial == LRCS_HOST_DIAL_PREVIEW ? "; its bound suffices here"
-                                                                 : "");
+            lrcs_host_append(
+                sentence.text, sizeof sentence.text, " (%.3g ms%s)", 1e3 * one->pose_s,
+                one->kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW ? "; its bound suffices here" : "");
         }
         lrcs_host_append(sentence.text, sizeof sentence.text,
                          i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
@@ -86,7 +86,7 @@ converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
     const char *before = " Accepted by estimate, a tolerance of ";
     for (uint32_t i = 0; i < all->settings; i++) {
         const lrcs_host_convergence_setting *one = &all->setting[i];
-        if (one->dial == LRCS_HOST_DIAL_PREVIEW) {
+        if (one->kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW) {
             const char *by = accepted_by(one);
             lrcs_host_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
                              one->digits, 1e3 * one->pose_s,
@@ -119,7 +119,7 @@ static void tolerances_table(const lrcs_host_convergence *all)
     int previews = 0;
     int suffices = 0; /* is the bound of a preview the cheapest proof? */
     for (uint32_t i = 0; i < all->settings; i++) {
-        previews += all->setting[i].dial == LRCS_HOST_DIAL_PREVIEW;
+        previews += all->setting[i].kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW;
     }
     printf("\n%-10s  %-22s %10s", "tolerance", "cheapest, proved", "ms");
     printf(previews > 0 ? "  %-22s %10s\n" : "\n", "accepted by estimate", "ms");
@@ -128,11 +128,11 @@ static void tolerances_table(const lrcs_host_convergence *all)
         double tolerance = pow(10.0, -digits);
         for (uint32_t i = 0; i < all->settings; i++) {
             const lrcs_host_convergence_setting *one = &all->setting[i];
-            int asked = one->dial == LRCS_HOST_DIAL_PREVIEW && one->digits == digits;
+            int asked = one->kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW && one->digits == digits;
             preview = asked ? one : preview;
         }
         const lrcs_host_convergence_setting *proved = setting_cheapest(all, tolerance);
-        suffices |= proved && proved->dial == LRCS_HOST_DIAL_PREVIEW;
+        suffices |= proved && proved->kind == LRCS_HOST_CONVERGENCE_KIND_PREVIEW;
         printf("1e-%-7d", digits);
         setting_cells(proved ? proved->name : NULL, proved ? proved->pose_s : 0.0);
         if (preview) {
@@ -206,7 +206,7 @@ void cli_converge_table(const converge_job *job)
     cli_scene_print(job->args, scene);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&scene->scene));
     printf("truth  %.15g m2, known to %.2g m2%s: %s\n\n", job->all.truth.sigma_m2,
-           job->all.truth.bound_m2, job->all.truth.whole ? "" : " for its facets",
+           job->all.truth.bound_m2, job->all.truth.true_shapes ? "" : " for its facets",
            job->all.truth.text);
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "", "", "", "prepare", "pose", "sigma",
            "error", "bound", "estimate");
@@ -242,7 +242,7 @@ void cli_converge_about(FILE *out, const void *context)
                    s_hat);
     lrcs_host_number_put(out, "; truth_m2=", job->all.truth.sigma_m2);
     lrcs_host_number_put(out, "; truth_bound_m2=", job->all.truth.bound_m2);
-    fprintf(out, "; truth_of=%s; truth=%s", job->all.truth.whole ? "shapes" : "facets",
+    fprintf(out, "; truth_of=%s; truth=%s", job->all.truth.true_shapes ? "shapes" : "facets",
             job->all.truth.text);
 }
 
@@ -295,7 +295,7 @@ void cli_converge_json(const converge_job *job)
     cli_direction_json(&job->all.pose, &json);
     lrcs_host_json_put(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
                        job->all.truth.text, job->all.truth.sigma_m2, job->all.truth.bound_m2,
-                       !job->all.truth.whole);
+                       !job->all.truth.true_shapes);
     for (uint32_t i = 0; i < job->all.settings; i++) {
         const lrcs_host_convergence_setting *one = &job->all.setting[i];
         double number[NUMBERS];

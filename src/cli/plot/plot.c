@@ -141,7 +141,7 @@ static int plot_files_read(plot_job *job)
         const char *title = lrcs_host_rows_head_text(&data->head, "title");
         plot->title = title ? title : cli_base_name(file->path);
         plot->accept = lrcs_host_rows_head_text(&data->head, "accept");
-        plot->open = lrcs_host_rows_head_text(&data->head, "materials") != NULL;
+        plot->materials_assumed = lrcs_host_rows_head_text(&data->head, "materials") != NULL;
         plot->row = data->row;
         plot->band = data->band;
         plot->head = &data->head;

@@ -120,7 +120,7 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     column[4] = lrcs_host_table_column(&job->table, "pulse_m");
     profile->title = job->title;
     profile->about = job->about;
-    profile->open = lrcs_host_key_text(job->about, "materials", text, sizeof text);
+    profile->materials_assumed = lrcs_host_key_text(job->about, "materials", text, sizeof text);
     profile->profile.list.sigma_diffuse_m2 = lrcs_host_key_number(job->about, "sigma_m2");
     profile->fwhm_m =
         column[4] != LRCS_NONE ? lrcs_host_key_number(job->about, "pulse_fwhm_m") : 0.0;
@@ -168,19 +168,19 @@ enum {
 static int setting_name_read(table_job *job, const uint32_t column[ROWS],
                              lrcs_host_convergence_setting *setting, lrcs_host_error *error)
 {
-    static const int dial[] = {[LRCS_METHOD_ZBUFFER] = LRCS_HOST_DIAL_ZBUFFER,
-                               [LRCS_METHOD_FACET] = LRCS_HOST_DIAL_FACET,
-                               [LRCS_METHOD_EXACT] = LRCS_HOST_DIAL_EXACT,
-                               [LRCS_METHOD_CLOSED] = LRCS_HOST_DIAL_CLOSED};
+    static const int kind[] = {[LRCS_METHOD_ZBUFFER] = LRCS_HOST_CONVERGENCE_KIND_ZBUFFER,
+                               [LRCS_METHOD_FACET] = LRCS_HOST_CONVERGENCE_KIND_FACET,
+                               [LRCS_METHOD_EXACT] = LRCS_HOST_CONVERGENCE_KIND_EXACT,
+                               [LRCS_METHOD_CLOSED] = LRCS_HOST_CONVERGENCE_KIND_CLOSED};
     const lrcs_host_field *name = &job->table.field[column[ROW_SETTING]];
     const lrcs_host_field *method = &job->table.field[column[ROW_METHOD]];
     snprintf(setting->name, sizeof setting->name, "%.*s", (int)name->size, name->text);
     const char *digits = strstr(setting->name, " 1e-");
     setting->method = -1;
-    for (int i = 0; i < (int)(sizeof dial / sizeof dial[0]); i++) {
+    for (int i = 0; i < (int)(sizeof kind / sizeof kind[0]); i++) {
         if (i != LRCS_METHOD_AUTO && lrcs_host_field_is(method, lrcs_method_text(i))) {
             setting->method = i;
-            setting->dial = dial[i];
+            setting->kind = kind[i];
         }
     }
     if (setting->method < 0) {
@@ -189,7 +189,7 @@ static int setting_name_read(table_job *job, const uint32_t column[ROWS],
     }
     if (digits && strncmp(setting->name, LRCS_HOST_PREVIEW_NAME_TEXT,
                           strlen(LRCS_HOST_PREVIEW_NAME_TEXT)) == 0) {
-        setting->dial = LRCS_HOST_DIAL_PREVIEW;
+        setting->kind = LRCS_HOST_CONVERGENCE_KIND_PREVIEW;
         setting->digits = (int)strtol(digits + 4, NULL, 10);
     } else if (digits) {
         long mesh = strtol(digits + 4, NULL, 10);
@@ -197,7 +197,7 @@ static int setting_name_read(table_job *job, const uint32_t column[ROWS],
             return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[ROW_SETTING],
                                           "a mesh of 1e-1 .. 1e-6", error);
         }
-        setting->dial = LRCS_HOST_DIAL_MESH;
+        setting->kind = LRCS_HOST_CONVERGENCE_KIND_MESH;
         setting->mesh = (uint32_t)mesh - 1;
         job->converge.all.mesh[mesh - 1].digits = (int)mesh;
     }
@@ -248,8 +248,8 @@ static int converge_read(table_job *job, lrcs_host_error *error)
     job->converge.about = job->about;
     truth->sigma_m2 = lrcs_host_key_number(job->about, "truth_m2");
     truth->bound_m2 = lrcs_host_key_number(job->about, "truth_bound_m2");
-    truth->whole = lrcs_host_key_text(job->about, "truth_of", text, sizeof text) &&
-                   strcmp(text, "shapes") == 0;
+    truth->true_shapes = lrcs_host_key_text(job->about, "truth_of", text, sizeof text) &&
+                         strcmp(text, "shapes") == 0;
     lrcs_host_key_text(job->about, "truth", truth->text, sizeof truth->text);
     converge->pose = lrcs_pose_default();
     if (status == LRCS_OK &&

@@ -64,7 +64,7 @@ static int profile_chart_draw(const profile_job *job, double *number, size_t roo
     if (job->fwhm_m > 0.0) {
         lrcs_host_append(note, sizeof note, "; pulse of %g m (FWHM)", job->fwhm_m);
     }
-    if (job->open) {
+    if (job->materials_assumed) {
         lrcs_host_append(note, sizeof note, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,

@@ -153,7 +153,7 @@ static int profile_command(const cli_args *args)
     code = code ? code : cli_outputs_spare(args, &job.scene);
     if (code == 0) {
         job.title = cli_scene_title(args, &job.scene);
-        job.open = cli_materials_assumed(&job.scene.scene);
+        job.materials_assumed = cli_materials_assumed(&job.scene.scene);
     }
     cli_watch_stage("preparing", &job.scene);
     code = code ? code : cli_scene_prepare(&job.scene);

@@ -21,9 +21,9 @@ typedef struct profile_job {
     double asked;         /* tolerance; 0 for none */
     int met;
     const char *csv;
-    const char *about; /* in the chart: what it was made from */
-    const char *title; /* the scene's, or the name of its file */
-    int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
+    const char *about;     /* in the chart: what it was made from */
+    const char *title;     /* the scene's, or the name of its file */
+    int materials_assumed; /* 1 if some are illustrative or assumed: no bound includes their error */
     lrcs_host_scene scene;
     lrcs_host_profile profile;
     profile_row *row;

@@ -76,7 +76,7 @@ void cli_profile_about(FILE *out, const void *context)
         lrcs_host_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
     }
     lrcs_host_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
-    fputs(job->open ? "; materials=illustrative or assumed" : "", out);
+    fputs(job->materials_assumed ? "; materials=illustrative or assumed" : "", out);
 }
 
 void cli_profile_csv(FILE *out, const void *context)
@@ -238,7 +238,7 @@ static void summary_print(const profile_job *job)
         printf("             Left open: how far curved shapes are from the facets that stand for "
                "them\n");
     }
-    if (job->open) {
+    if (job->materials_assumed) {
         printf("             Left open: materials, which are illustrative or default ones\n");
     }
 }

@@ -32,7 +32,7 @@ static void extremes_write(FILE *out, const report_sweep *sweep)
         fputs(" Nothing returns; each", out);
     }
     cli_page(out, " \xcf\x83 is proved to within %.2e m\xc2\xb2 or better%s.", bound,
-             sweep->plot.open ? " for its materials, which are illustrative" : "");
+             sweep->plot.materials_assumed ? " for its materials, which are illustrative" : "");
     if (sweep->band && most > 0.0) {
         cli_page_text(
             out,

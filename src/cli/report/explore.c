@@ -226,7 +226,7 @@ static int explore_data_put(FILE *out, const report_job *job, explore_mesh *mesh
     axis_put(out, "az", 0.0, job->map_step, map->plan.axis[0].range.count);
     axis_put(out, "el", -90.0, job->map_step, map->plan.axis[1].range.count);
     materials_put(out, scene);
-    fprintf(out, ",\n\"open\":%d", map->plot.open != 0);
+    fprintf(out, ",\n\"open\":%d", map->plot.materials_assumed != 0);
     words_put(out, "sigma", value, rows, 8);
     words_put(out, "bound", value + rows, rows, 8);
     if (map->band) {
@@ -256,9 +256,10 @@ static void page_notes(FILE *out, const report_job *job, const explore_mesh *mes
              "elevation; \xcf\x83 and its proved bound are read off at its nearest direction, and "
              "nothing is interpolated.%s ",
              job->map_step,
-             map->plot.open ? " They hold for the materials given, which are illustrative or "
-                              "assumed."
-                            : "");
+             map->plot.materials_assumed
+                 ? " They hold for the materials given, which are illustrative or "
+                   "assumed."
+                 : "");
     if (mesh->facets < mesh->all) {
         cli_page(out,
                  "The body is drawn with %u of its %u facets, vertices close to each other "

@@ -117,7 +117,7 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
         (lrcs_host_sweep_chart){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
     lrcs_host_sweep_chart_choose(&sweep->plot);
     sweep->plot.title = cli_scene_name(job->args, &job->run.scene);
-    sweep->plot.open = cli_materials_assumed(&job->run.scene.scene);
+    sweep->plot.materials_assumed = cli_materials_assumed(&job->run.scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }

@@ -115,7 +115,7 @@ static void stats_print(FILE *out, const sweep_stats *stats)
     place_print(out, "most", stats->plan, &stats->row[stats->all.rows - 1]);
     lrcs_host_bound_text(worst, 2, error);
     fprintf(out, "  percentiles are known to %s m2 or better for these rows\n", error);
-    if (stats->all.banded) {
+    if (stats->all.has_intervals) {
         fputs("  materials: 68 % by their errors, as if these moved all rows together, which is\n"
               "  seldom too narrow; an estimate, not a bound\n",
               out);
@@ -128,7 +128,7 @@ static void stats_print(FILE *out, const sweep_stats *stats)
                 percent, percent);
     }
     for (uint32_t i = 0; i < stats->all.bins; i++) {
-        int bar = (int)lround(stats->all.share[i] / stats->all.fullest * TEXT_BAR);
+        int bar = (int)lround(stats->all.share[i] / stats->all.largest_share * TEXT_BAR);
         fprintf(out, "  %7.1f .. %5.1f  %7.2f %%  %7.2f %%  %.*s\n", stats->all.edge_dbsm[i],
                 stats->all.edge_dbsm[i + 1], 100.0 * stats->all.share[i], 100.0 * cdf[i + 1], bar,
                 "########################################");
@@ -220,12 +220,12 @@ static void stats_csv(FILE *out, const void *context)
             stats->weights);
     lrcs_host_rows_options_write(out, stats->head);
     fprintf(out, "\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most%s\n",
-            stats->all.banded ? ",cdf_material_low,cdf_material_high" : "");
+            stats->all.has_intervals ? ",cdf_material_low,cdf_material_high" : "");
     for (uint32_t i = 0; i <= stats->all.bins && stats->all.bins > 0; i++) {
         lrcs_host_number_put(out, "", stats->all.edge_dbsm[i]);
         lrcs_host_number_put(out, ",", stats->all.edge_m2[i]);
         lrcs_host_number_put(out, ",", i > 0 ? stats->all.share[i - 1] : stats->all.cdf[VALUE][0]);
-        for (int k = 0; k < (stats->all.banded ? 5 : 3); k++) {
+        for (int k = 0; k < (stats->all.has_intervals ? 5 : 3); k++) {
             lrcs_host_number_put(out, ",", stats->all.cdf[column[k]][i]);
         }
         putc('\n', out);
@@ -274,7 +274,7 @@ static uint32_t series_make(const stats_chart *from, const char *bars, lrcs_host
     uint32_t count = wide > 0.02 ? 4 : 2;
     memcpy(series, all, 4 * sizeof all[0]);
     series[count] = all[4];
-    return count + (stats->all.banded != 0);
+    return count + (stats->all.has_intervals != 0);
 }
 
 static int chart_write(FILE *out, const void *context, int png, lrcs_host_error *error)
@@ -288,9 +288,9 @@ static int chart_write(FILE *out, const void *context, int png, lrcs_host_error 
     snprintf(note, sizeof note, "%llu rows, %s; mean %.4g m2, median %.4g m2%s",
              (unsigned long long)stats->all.rows, stats->weights, stats->all.mean_m2.at[VALUE],
              stats->all.percentile_m2[STATS_MEDIAN].at[VALUE],
-             stats->all.banded ? "; shaded: 68 % by the errors of materials" : "");
+             stats->all.has_intervals ? "; shaded: 68 % by the errors of materials" : "");
     snprintf(bars, sizeof bars, "histogram: highest bar %.3g %% in %.3g dB",
-             100.0 * stats->all.fullest, stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
+             100.0 * stats->all.largest_share, stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
     char *about = cli_text_of(about_put, stats->head);
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
@@ -332,9 +332,9 @@ static int chart_make(const sweep_stats *stats, stats_chart *chart)
     }
     for (size_t i = 0; i <= stats->all.bins; i++) {
         chart->bin_x[2 * i] = chart->bin_x[2 * i + 1] = stats->all.edge_dbsm[i];
-        chart->bin_y[2 * i] = i > 0 ? stats->all.share[i - 1] / stats->all.fullest : 0.0;
+        chart->bin_y[2 * i] = i > 0 ? stats->all.share[i - 1] / stats->all.largest_share : 0.0;
         chart->bin_y[2 * i + 1] =
-            i < stats->all.bins ? stats->all.share[i] / stats->all.fullest : 0.0;
+            i < stats->all.bins ? stats->all.share[i] / stats->all.largest_share : 0.0;
     }
     return 0;
 }

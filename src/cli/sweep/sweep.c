@@ -364,7 +364,7 @@ static int sweep_rows_write(sweep_job *job)
     job->file.plan = &job->plan;
     job->file.head = &job->head;
     job->plot.head = &job->head;
-    job->plot.open = cli_materials_assumed(&job->scene.scene);
+    job->plot.materials_assumed = cli_materials_assumed(&job->scene.scene);
     job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
     int code = cli_rows_head_make(args, &job->plan, &job->options, &job->scene,
                                   job->coarse_count > 0, &job->head); /* 1 */
@@ -375,11 +375,11 @@ static int sweep_rows_write(sweep_job *job)
     cli_watch_stage("existing rows", NULL);
     int plotted = cli_value(args, "plot") != NULL;
     if (plotted || job->brightest > 0 || job->stats) { /* 2 */
-        int banded = (plotted || job->stats) && job->head.fields.materials;
+        int has_intervals = (plotted || job->stats) && job->head.fields.materials;
         job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
-        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
+        job->band = has_intervals ? calloc(job->plan.rows, sizeof *job->band) : NULL;
         job->file.band = job->plot.band = job->band;
-        if (!job->row || (banded && !job->band)) {
+        if (!job->row || (has_intervals && !job->band)) {
             return cli_out_of_memory();
         }
     }

@@ -45,8 +45,8 @@ static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char no
     char bound[LRCS_HOST_BOUND_SIZE];
     double worst = 0.0;
     int dark = 0;
-    int open = 0;
-    char banded[120] = "";
+    int assumed = 0;
+    char interval_text[120] = "";
     int status = LRCS_OK;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && strlen(note) < 300 && count == 1; i++) {
@@ -63,7 +63,7 @@ static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char no
             worst = fmax(worst, plot->row[i][1]);
             dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
         }
-        open |= plot->open;
+        assumed |= plot->materials_assumed;
         if (plot->band && plot->map) {
             double part[2] = {0.0, 0.0};
             status = lrcs_host_sweep_chart_band(plot, part, error);
@@ -71,18 +71,19 @@ static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char no
             if (part[0] >= 5e-4) {
                 snprintf(median, sizeof median, "+-%.2g", 100.0 * part[0]);
             }
-            snprintf(banded, sizeof banded,
+            snprintf(interval_text, sizeof interval_text,
                      "; errors of materials (68 %%): %s %% of sigma (median), +-%.2g %% (most)",
                      median, 100.0 * part[1]);
         } else if (plot->band) {
-            snprintf(banded, sizeof banded, "; shaded: 68 %% by the errors of materials");
+            snprintf(interval_text, sizeof interval_text,
+                     "; shaded: 68 %% by the errors of materials");
         }
         accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     lrcs_host_bound_text(worst, 2, bound);
     lrcs_host_append(
         note, 512, "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
-        open ? " for its materials, which are illustrative" : "", banded,
+        assumed ? " for its materials, which are illustrative" : "", interval_text,
         accept ? "; accepted by " : "", accept ? accept : "",
         !dark        ? ""
         : plots->map ? "; grey: sigma is 0"

@@ -57,14 +57,14 @@ static void cases_divide(lrcsi_search *search)
     search->any_nonzero = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
-        if (!one->given || !isfinite(one->theirs_m2) || !lrcs_host_judge_asked(job, one)) {
+        if (!one->given || !isfinite(one->answer_m2) || !lrcs_host_judge_asked(job, one)) {
             continue;
         }
         if (!lrcs_host_judge_failed(job, one)) {
             search->passing[search->passing_count++] = one;
         } else if (one->explained == 0) {
             search->failing[search->failing_count++] = one;
-            search->any_nonzero |= one->theirs_m2 != 0.0;
+            search->any_nonzero |= one->answer_m2 != 0.0;
         }
     }
     list_shuffle(search->failing, search->failing_count);
@@ -91,8 +91,8 @@ static double case_room(const lrcsi_search *search, const lrcs_host_kit_case *on
 int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case *one,
                            double expected)
 {
-    double left = fabs(one->theirs_m2 - expected);
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    double left = fabs(one->answer_m2 - expected);
+    double off = fabs(one->answer_m2 - one->sigma_m2);
     return left <= REMOVED * off ||
            (left <= REMOVED_RASTER * off && left <= case_room(search, one, expected));
 }
@@ -122,10 +122,10 @@ static search_score mistake_score(const lrcsi_search *search, const double *answ
     for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
         double expected = factor * answer[i];
-        double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
+        double left = fabs(one->answer_m2 - expected) / fabs(one->answer_m2 - one->sigma_m2);
         int right = lrcsi_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
-        if (right && search->any_nonzero && one->theirs_m2 == 0.0) {
+        if (right && search->any_nonzero && one->answer_m2 == 0.0) {
             uninformative++; /* no evidence if others are not 0: many mistakes make facets vanish */
             continue;
         }
@@ -152,8 +152,8 @@ static double factor_median(const lrcsi_search *search, const double *answer,
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failing_count; i++) {
-        if (answer[i] > 0.0 && search->failing[i]->theirs_m2 > 0.0) {
-            search->room[count++] = search->failing[i]->theirs_m2 / answer[i];
+        if (answer[i] > 0.0 && search->failing[i]->answer_m2 > 0.0) {
+            search->room[count++] = search->failing[i]->answer_m2 / answer[i];
         }
     }
     double median = lrcsi_search_upper_median(search->room, count);
@@ -197,7 +197,7 @@ static lrcs_host_finding *finding_new(lrcs_host_judgement *job, const char *name
         return NULL;
     }
     lrcs_host_finding *finding = &job->finding[job->findings++];
-    *finding = (lrcs_host_finding){.name = name, .factor = 1.0, .rest = 1.0};
+    *finding = (lrcs_host_finding){.name = name, .factor = 1.0, .residual_share = 1.0};
     return finding;
 }
 
@@ -300,14 +300,14 @@ static void clipped_append(const lrcsi_search *search, const search_score *best,
     for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
         left += one->explained != mark;
-        less += one->explained != mark && one->theirs_m2 < best->factor * search->answer[i];
+        less += one->explained != mark && one->answer_m2 < best->factor * search->answer[i];
     }
     if (less == 0 || left > finding->explained || less < CLIPPED * left) {
         return;
     }
     for (uint32_t i = 0; i < search->failing_count; i++) {
         lrcs_host_kit_case *one = search->failing[i];
-        int cut = one->explained == 0 && one->theirs_m2 < best->factor * search->answer[i];
+        int cut = one->explained == 0 && one->answer_m2 < best->factor * search->answer[i];
         one->explained = cut ? mark : one->explained;
     }
     finding->explained += less;
@@ -354,11 +354,11 @@ static int finding_make(lrcsi_search *search, const search_score *best)
         double expected = best->factor * search->answer[i];
         if (lrcsi_search_explained(search, one, expected)) {
             search->room[count++] =
-                fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
+                fabs(one->answer_m2 - expected) / fabs(one->answer_m2 - one->sigma_m2);
             one->explained = (int)job->findings;
         }
     }
-    finding->rest = lrcsi_search_upper_median(search->room, count);
+    finding->residual_share = lrcsi_search_upper_median(search->room, count);
     /* 4. Mistakes that explain them equally well; what a wrong pose moves out of the window. */
     status = ties_append(search, best, finding);
     if (status == LRCS_OK && best->first->pose) {
@@ -470,10 +470,10 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
         status = status == LRCS_OK ? lrcsi_symptoms_rest(&search) : status; /* 3 */
     }
     for (uint32_t i = 0; status == LRCS_OK && i < judgement->kit.cases; i++) { /* 4 */
-        int lack = lrcs_host_judge_lack(judgement, &judgement->kit.list[i]);
-        judgement->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
-        judgement->negatives += lack == LRCS_HOST_LACK_SIGN;
-        judgement->unexplained += lack == LRCS_HOST_LACK_REASON;
+        int reason = lrcs_host_judge_unexplained(judgement, &judgement->kit.list[i]);
+        judgement->not_numbers += reason == LRCS_HOST_UNEXPLAINED_NOT_A_NUMBER;
+        judgement->negatives += reason == LRCS_HOST_UNEXPLAINED_NEGATIVE;
+        judgement->unexplained += reason == LRCS_HOST_UNEXPLAINED_UNKNOWN;
     }
     free(search.failing);
     free(search.passing);

@@ -60,9 +60,9 @@ static int facet_line(facets_read *facets, const lrcsi_kit_table *table)
         double off = fabs(cosine - truth);
         facets->found->cosines++;
         if (off > COSINE_WRONG && fabs(cosine + truth) < COSINE_WRONG) {
-            facets->found->turned++;
+            facets->found->cosines_negated++;
         } else {
-            facets->found->cosine_most = fmax(facets->found->cosine_most, off);
+            facets->found->cosine_error_max = fmax(facets->found->cosine_error_max, off);
         }
     }
     (*visible)[(uint32_t)index] = area;
@@ -71,19 +71,19 @@ static int facet_line(facets_read *facets, const lrcsi_kit_table *table)
 
 /* ---- differing ---- */
 
-static int facet_way(double whole, double truth, double theirs, double allowed)
+static int difference_kind(double whole, double truth, double answer, double allowed)
 {
     double none = NONE_SEEN * whole;
     return truth <= none              ? LRCS_HOST_FACET_SHOWN
-           : theirs <= none           ? LRCS_HOST_FACET_LOST
-           : theirs > whole + allowed ? LRCS_HOST_FACET_LARGER
+           : answer <= none           ? LRCS_HOST_FACET_LOST
+           : answer > whole + allowed ? LRCS_HOST_FACET_LARGER
            : truth >= whole - none    ? LRCS_HOST_FACET_PART
-           : theirs >= whole - none   ? LRCS_HOST_FACET_WHOLE
+           : answer >= whole - none   ? LRCS_HOST_FACET_WHOLE
                                       : LRCS_HOST_FACET_ELSEWHERE;
 }
 
 static void facet_compare(facets_read *facets, const lrcs_host_kit_case *one, uint32_t facet,
-                          double theirs)
+                          double answer)
 {
     const lrcs_host_judgement *job = facets->job;
     const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
@@ -99,20 +99,20 @@ static void facet_compare(facets_read *facets, const lrcs_host_kit_case *one, ui
     double raster = outlines * lrcsi_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
     double allowed =
         job->grade == LRCS_HOST_GRADE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
-    lrcs_host_kit_facet off = {.one = one, .facet = facet, .theirs_m2 = theirs, .truth_m2 = truth};
-    if (fabs(theirs - truth) <= allowed) {
+    lrcs_host_kit_facet off = {.one = one, .facet = facet, .answer_m2 = answer, .truth_m2 = truth};
+    if (fabs(answer - truth) <= allowed) {
         return;
     }
-    off.sigma_m2 = LRCS_FOUR_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
+    off.sigma_m2 = LRCS_FOUR_PI * lrcs_brdf_eval(brdf, c) * c * fabs(answer - truth);
     double sigma_allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = lrcs_host_judge_failed(job, one);
-    off.way = facet_way(whole, truth, theirs, allowed);
+    off.kind = difference_kind(whole, truth, answer, allowed);
     lrcs_host_kit_facets *found = facets->found;
-    found->way[off.way]++;
+    found->kind_count[off.kind]++;
     /* the worst are kept: those of failing cases first, then by the change relative to what the
        case is allowed */
-    uint32_t at = found->worsts;
+    uint32_t at = found->worst_count;
     for (; at > 0; at--) {
         const lrcs_host_kit_facet *before = &found->worst[at - 1];
         if (off.failed != before->failed ? before->failed : before->weight >= off.weight) {
@@ -120,9 +120,9 @@ static void facet_compare(facets_read *facets, const lrcs_host_kit_case *one, ui
         }
     }
     if (at < LRCS_HOST_KIT_NAMED) {
-        found->worsts += found->worsts < LRCS_HOST_KIT_NAMED;
+        found->worst_count += found->worst_count < LRCS_HOST_KIT_NAMED;
         memmove(&found->worst[at + 1], &found->worst[at],
-                (found->worsts - at - 1) * sizeof *found->worst);
+                (found->worst_count - at - 1) * sizeof *found->worst);
         found->worst[at] = off;
     }
 }
@@ -158,24 +158,24 @@ int lrcs_host_judge_facets(lrcs_host_judgement *judgement, const char *path, lrc
 
 /* ---- in words ---- */
 
-const char *lrcs_host_facet_way_text(int way)
+const char *lrcs_host_facet_kind_text(int kind)
 {
-    static const char *const text[LRCS_HOST_FACET_WAYS] = {
+    static const char *const text[LRCS_HOST_FACET_KINDS] = {
         "seen by them, hidden in truth (missing shadow)",
         "not seen by them, visible in truth (lost, culled or behind)",
         "seen whole by them, partly hidden in truth (missing shadow)",
         "seen in part by them, whole in truth (clipped, or hidden by what is behind?)",
         "seen larger by them than they are (area of a pixel, or of the window?)",
         "seen in another part than in truth"};
-    return text[way];
+    return text[kind];
 }
 
 const char *lrcs_host_cosines_text(const lrcs_host_kit_facets *facets)
 {
     return facets->cosines == 0 ? NULL
-           : 2 * facets->turned > facets->cosines
+           : 2 * facets->cosines_negated > facets->cosines
                ? "the other sign: normals point inward, or to the wrong side"
-           : facets->cosine_most > COSINE_WRONG ? "wrong frame or normals"
-           : facets->cosine_most > COSINE_FLOAT ? "single precision"
-                                                : "double precision";
+           : facets->cosine_error_max > COSINE_WRONG ? "wrong frame or normals"
+           : facets->cosine_error_max > COSINE_FLOAT ? "single precision"
+                                                     : "double precision";
 }

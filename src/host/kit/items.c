@@ -28,13 +28,13 @@ static uint32_t item_at(const items_image *image, uint32_t row, uint32_t column)
 }
 
 /* A convention for images: rows and columns reversed or exchanged, and indices shifted. */
-typedef struct items_way {
+typedef struct image_convention {
     const char *text;
     int exchange, rows, columns; /* rows, columns: 1 if reversed */
     uint32_t add;                /* added to the truth's facet to get the submitted one */
-} items_way;
+} image_convention;
 
-static const items_way item_ways[LRCS_HOST_IMAGE_WAYS] = {
+static const image_convention image_conventions[LRCS_HOST_IMAGE_CONVENTIONS] = {
     {"agree with the truth", 0, 0, 0, 0},
     {"are upside down: row 0 is at the bottom", 0, 1, 0, 0},
     {"are mirrored left to right: a left-handed view", 0, 0, 1, 0},
@@ -47,21 +47,21 @@ static const items_way item_ways[LRCS_HOST_IMAGE_WAYS] = {
     {"are upside down, and their facets count from 1", 0, 1, 0, 1}};
 
 /* Of the pixels that are not empty in at least one of the images, the share in which both agree,
-   with rows and columns of the submitted image as in `way`. If indices start at 1, 0 is none. */
-static double images_agree(const items_image *truth, const items_image *theirs,
-                           const items_way *way)
+   with rows and columns of the submitted image as in `convention`. If indices start at 1, 0 is none. */
+static double images_agree(const items_image *truth, const items_image *answer,
+                           const image_convention *convention)
 {
     uint32_t last = truth->side - 1;
     uint64_t shown = 0;
     uint64_t same = 0;
     for (uint32_t row = 0; row < truth->side; row++) {
         for (uint32_t column = 0; column < truth->side; column++) {
-            uint32_t y = way->rows ? last - row : row;
-            uint32_t x = way->columns ? last - column : column;
+            uint32_t y = convention->rows ? last - row : row;
+            uint32_t x = convention->columns ? last - column : column;
             uint32_t a = item_at(truth, row, column);
-            uint32_t b = way->exchange ? item_at(theirs, x, y) : item_at(theirs, y, x);
-            int none = b == LRCS_NONE || (way->add > 0 && b == 0);
-            int equal = a == LRCS_NONE ? none : b == a + way->add;
+            uint32_t b = convention->exchange ? item_at(answer, x, y) : item_at(answer, y, x);
+            int none = b == LRCS_NONE || (convention->add > 0 && b == 0);
+            int equal = a == LRCS_NONE ? none : b == a + convention->add;
             shown += a != LRCS_NONE || !equal;
             same += a != LRCS_NONE && equal;
         }
@@ -97,24 +97,24 @@ static int item_image_read(const char *path, uint32_t side, items_image *image, 
 /* Judges an image: the convention in which it agrees with the truth; if it agrees in none, the
    facets that lose most pixels, with the number of the truth's pixels that show something else. */
 static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
-                       const items_image *truth, const items_image *theirs, lrcs_host_error *error)
+                       const items_image *truth, const items_image *answer, lrcs_host_error *error)
 {
     lrcs_host_kit_items *found = &job->by_item;
     const uint32_t facets = job->kit.scene[one->scene].host.scene.facet_count;
     double first = 0.0;
     double most = 0.0;
     size_t best = 0;
-    for (size_t i = 0; i < LRCS_HOST_IMAGE_WAYS; i++) {
-        double agree = images_agree(truth, theirs, &item_ways[i]);
+    for (size_t i = 0; i < LRCS_HOST_IMAGE_CONVENTIONS; i++) {
+        double agree = images_agree(truth, answer, &image_conventions[i]);
         first = i == 0 ? agree : first;
         best = agree > most ? i : best;
         most = fmax(agree, most);
     }
     if (first >= AGREE || most >= AGREE) {
-        found->way[first >= AGREE ? 0 : best]++;
+        found->convention_count[first >= AGREE ? 0 : best]++;
         return LRCS_OK;
     }
-    if (found->differ++ >= LRCS_HOST_KIT_NAMED) {
+    if (found->images_differ++ >= LRCS_HOST_KIT_NAMED) {
         return LRCS_OK;
     }
     lrcs_host_kit_image *image = &found->image[found->named++];
@@ -125,7 +125,7 @@ static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
     }
     for (uint32_t i = 0; i < truth->side * truth->side; i++) {
         uint32_t a = item_at(truth, i / truth->side, i % truth->side);
-        uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
+        uint32_t b = item_at(answer, i / truth->side, i % truth->side);
         lost[a < facets ? a : facets] += a != b;
     }
     for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP; n++) {
@@ -148,11 +148,11 @@ static int item_case_judge(lrcs_host_judgement *job, const char *folder,
     char path[LRCSI_KIT_PATH];
     const char *name = job->kit.scene[one->scene].name;
     items_image truth = {.side = 0};
-    items_image theirs = {.side = 0};
+    items_image answer = {.side = 0};
     int expected = 0;
     *found = 0;
     int status = lrcsi_kit_path(path, error, "%s/%s.%s.item.u32", folder, name, one->attitude);
-    status = status == LRCS_OK ? item_image_read(path, one->image, &theirs, found, error) : status;
+    status = status == LRCS_OK ? item_image_read(path, one->image, &answer, found, error) : status;
     if (status != LRCS_OK || !*found) {
         return status;
     }
@@ -165,11 +165,11 @@ static int item_case_judge(lrcs_host_judgement *job, const char *folder,
     }
     status =
         status == LRCS_OK ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
-    if (status == LRCS_OK && truth.bytes && theirs.bytes) {
-        status = image_judge(job, one, &truth, &theirs, error);
+    if (status == LRCS_OK && truth.bytes && answer.bytes) {
+        status = image_judge(job, one, &truth, &answer, error);
     }
     lrcs_host_file_free(&truth.file);
-    lrcs_host_file_free(&theirs.file);
+    lrcs_host_file_free(&answer.file);
     return status;
 }
 
@@ -190,14 +190,14 @@ int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
             if (status != LRCS_OK) {
                 return status;
             }
-            judgement->by_item.handed += (uint32_t)found;
+            judgement->by_item.images_found += (uint32_t)found;
             judgement->by_item.images++;
         }
     }
     return LRCS_OK;
 }
 
-const char *lrcs_host_image_way_text(int way)
+const char *lrcs_host_image_convention_text(int convention)
 {
-    return item_ways[way].text;
+    return image_conventions[convention].text;
 }

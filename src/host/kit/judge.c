@@ -37,13 +37,13 @@ int lrcs_host_judge_failed(const lrcs_host_judgement *judgement, const lrcs_host
     return lrcs_host_judge_asked(judgement, one) && one->grade > judgement->grade;
 }
 
-int lrcs_host_judge_lack(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one)
+int lrcs_host_judge_unexplained(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one)
 {
-    return !lrcs_host_judge_failed(judgement, one) || one->explained ? LRCS_HOST_LACK_NONE
-           : !one->given                                             ? LRCS_HOST_LACK_ANSWER
-           : !isfinite(one->theirs_m2)                               ? LRCS_HOST_LACK_NUMBER
-           : one->theirs_m2 < 0.0                                    ? LRCS_HOST_LACK_SIGN
-                                                                     : LRCS_HOST_LACK_REASON;
+    return !lrcs_host_judge_failed(judgement, one) || one->explained ? LRCS_HOST_UNEXPLAINED_NONE
+           : !one->given                                             ? LRCS_HOST_UNEXPLAINED_MISSING
+           : !isfinite(one->answer_m2) ? LRCS_HOST_UNEXPLAINED_NOT_A_NUMBER
+           : one->answer_m2 < 0.0      ? LRCS_HOST_UNEXPLAINED_NEGATIVE
+                                       : LRCS_HOST_UNEXPLAINED_UNKNOWN;
 }
 
 enum { ANSWER_SCENE, ANSWER_ATTITUDE, ANSWER_SIGMA, ANSWER_DBSM, ANSWER_COLUMNS };
@@ -69,8 +69,8 @@ static int answers_read(lrcs_host_judgement *job, const char *path, lrcs_host_er
             status = lrcsi_kit_table_answer(&table, at, &value);
         }
         if (one && status == LRCS_OK) {
-            one->printed = value;
-            one->theirs_m2 = job->decibels ? pow(10.0, value / 10.0) : value;
+            one->answer_printed = value;
+            one->answer_m2 = job->decibels ? pow(10.0, value / 10.0) : value;
             one->given = 1;
         }
     }
@@ -84,7 +84,7 @@ int lrcs_host_judge(lrcs_host_judgement *judgement, const char *path, lrcs_host_
     int status = answers_read(job, path, error);
     for (uint32_t i = 0; i < job->kit.cases && status == LRCS_OK; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
-        double off = fabs(one->theirs_m2 - one->sigma_m2);
+        double off = fabs(one->answer_m2 - one->sigma_m2);
         one->grade = one->given ? LRCS_HOST_GRADE_EXACT : LRCS_HOST_GRADE_MISSING;
         while (one->grade < LRCS_HOST_GRADE_FAIL &&
                !(off <= lrcs_host_judge_allowed(one, one->grade, job->pixels))) {

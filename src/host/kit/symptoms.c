@@ -41,13 +41,13 @@ static const struct symptom_reading {
 static int reading_matches(const lrcs_host_judgement *job, const lrcs_host_kit_case *one,
                            const struct symptom_reading *reading)
 {
-    double sigma_m2 =
-        reading->decade > 0.0 ? pow(10.0, one->printed / reading->decade) : one->printed;
+    double sigma_m2 = reading->decade > 0.0 ? pow(10.0, one->answer_printed / reading->decade)
+                                            : one->answer_printed;
     if (reading->lines != 0) {
         double line = (double)(one - job->kit.list) + reading->lines;
         int inside = line >= 0.0 && line < job->kit.cases;
         const lrcs_host_kit_case *other = inside ? &job->kit.list[(uint32_t)line] : NULL;
-        sigma_m2 = other && other->given ? other->theirs_m2 : (double)NAN;
+        sigma_m2 = other && other->given ? other->answer_m2 : (double)NAN;
     }
     return fabs(sigma_m2 - one->sigma_m2) <= lrcs_host_judge_allowed(one, job->grade, job->pixels);
 }
@@ -72,7 +72,7 @@ static void reading_try(lrcsi_search *search, const struct symptom_reading *read
                            : NULL;
     for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
-        if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
+        if (one->given && !isfinite(one->answer_m2) && one->explained == 0 &&
             lrcs_host_judge_failed(job, one) && reading_matches(job, one, reading)) {
             one->explained = (int)job->findings;
             finding->explained++;
@@ -95,7 +95,7 @@ static int digits_all(const lrcs_host_judgement *job, int digits, int significan
 {
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const lrcs_host_kit_case *one = &job->kit.list[i];
-        double value = one->given ? one->printed : 0.0;
+        double value = one->given ? one->answer_printed : 0.0;
         double step = digit_step(value, digits, significant);
         double steps = floor(value / step + 0.5);
         if (isfinite(value) && fabs(value - steps * step) > SAME_DIGIT * fabs(value)) {
@@ -121,7 +121,7 @@ static void digits_try(lrcsi_search *search)
             double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
             double half = 0.5 * digit_step(value, digits, significant);
             double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
-            search->explains[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
+            search->explains[i] = fabs(one->answer_m2 - one->sigma_m2) <=
                                   room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
         }
         if (digits < DIGITS && holds_most(search) &&
@@ -143,7 +143,7 @@ void lrcsi_symptoms_format(lrcsi_search *search)
         const lrcs_host_kit_case *one = &job->kit.list[i];
         int counts = one->given && lrcs_host_judge_asked(job, one);
         given += (uint32_t)counts;
-        blank &= !counts || one->theirs_m2 == 0.0;
+        blank &= !counts || one->answer_m2 == 0.0;
     }
     if (given > 0 && blank) {
         memset(search->explains, 1, search->failing_count);
@@ -166,7 +166,7 @@ void lrcsi_symptoms_format(lrcsi_search *search)
 /* The pixels per side at which a case is within what a raster is allowed; 0 if it never is. */
 static double case_pixels(const lrcs_host_kit_case *one)
 {
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
+    double off = fabs(one->answer_m2 - one->sigma_m2);
     double rest = off - lrcs_host_judge_allowed(one, LRCS_HOST_GRADE_FLOAT, 1);
     return rest > 0.0 ? one->edge_m2 / rest : HUGE_VAL;
 }
@@ -186,7 +186,7 @@ static void coarse_try(lrcsi_search *search)
     for (uint32_t i = 0; i < job->kit.cases && pixels >= COARSEST; i++) {
         const lrcs_host_kit_case *one = &job->kit.list[i];
         if (one->given && lrcs_host_judge_asked(job, one) && one->grade >= LRCS_HOST_GRADE_RASTER &&
-            one->explained == 0 && isfinite(one->theirs_m2)) {
+            one->explained == 0 && isfinite(one->answer_m2)) {
             search->room[count++] = pixels / case_pixels(one);
         }
     }
@@ -250,10 +250,10 @@ static int case_is_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *on
     if (status != LRCS_OK) {
         return status;
     }
-    double theirs = one->theirs_m2 - one->sigma_m2;
+    double difference = one->answer_m2 - one->sigma_m2;
     double most = other - one->sigma_m2;
     *z_fighting =
-        fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
+        fabs(most) > allowed && difference / most > 0.0 && fabs(difference) <= fabs(most) + allowed;
     return LRCS_OK;
 }
 
@@ -293,8 +293,8 @@ static void bias_try(lrcsi_search *search)
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const lrcs_host_kit_case *one = &job->kit.list[i];
         if (one->given && lrcs_host_judge_asked(job, one) && one->sigma_m2 > 0.0 &&
-            one->grade > LRCS_HOST_GRADE_EXACT && isfinite(one->theirs_m2)) {
-            ratio[count++] = one->theirs_m2 / one->sigma_m2;
+            one->grade > LRCS_HOST_GRADE_EXACT && isfinite(one->answer_m2)) {
+            ratio[count++] = one->answer_m2 / one->sigma_m2;
         }
     }
     double median = lrcsi_search_upper_median(ratio, count);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs one scene from one pose with every setting of every dial, and finds the truth. This file
+/* Runs one scene from one pose with the settings of every kind, and finds the truth. This file
    decides which settings there are, how often each is run, and with which truth they are
    compared. */
 #include <lrcs/convergence.h>
@@ -96,7 +96,8 @@ static int setting_run(lrcs_host_convergence *job, lrcs_host_convergence_setting
     lrcs_result result = {0};
     lrcs_run_options options = lrcs_run_options_default();
     double *seconds = &setting->seconds[setting->runs];
-    options.method = setting->dial == LRCS_HOST_DIAL_CLOSED ? LRCS_METHOD_AUTO : setting->method;
+    options.method =
+        setting->kind == LRCS_HOST_CONVERGENCE_KIND_CLOSED ? LRCS_METHOD_AUTO : setting->method;
     options.resolution = setting->resolution;
     if (setting->digits > 0) {
         options.method = LRCS_METHOD_AUTO;
@@ -117,7 +118,7 @@ static int setting_run(lrcs_host_convergence *job, lrcs_host_convergence_setting
     setting->sigma_m2 = result.sigma_m2;
     setting->bound_m2 = result.bound_m2;
     setting->estimate_m2 = result.estimate_m2;
-    setting->whole = result.budget.tessellation_m2 >= 0.0;
+    setting->true_shapes = result.budget.tessellation_m2 >= 0.0;
     setting->flags = result.flags;
     if (setting->digits > 0) {
         setting->method = result.method;
@@ -129,18 +130,18 @@ static int setting_run(lrcs_host_convergence *job, lrcs_host_convergence_setting
 }
 
 /* Adds a setting and runs it for the first time. */
-static int setting_add(lrcs_host_convergence *job, int dial, int method, uint32_t resolution,
+static int setting_add(lrcs_host_convergence *job, int kind, int method, uint32_t resolution,
                        uint32_t mesh, lrcs_host_error *error)
 {
     lrcs_host_convergence_setting *setting = &job->setting[job->settings++];
     snprintf(setting->name, sizeof setting->name, "%s", lrcs_method_text(method));
-    setting->dial = dial;
+    setting->kind = kind;
     setting->method = method;
     setting->resolution = resolution;
     setting->mesh = mesh;
-    if (dial == LRCS_HOST_DIAL_ZBUFFER) {
+    if (kind == LRCS_HOST_CONVERGENCE_KIND_ZBUFFER) {
         lrcs_host_append(setting->name, sizeof setting->name, " %lu", (unsigned long)resolution);
-    } else if (dial == LRCS_HOST_DIAL_MESH) {
+    } else if (kind == LRCS_HOST_CONVERGENCE_KIND_MESH) {
         lrcs_host_append(setting->name, sizeof setting->name, " on mesh 1e-%d",
                          job->mesh[mesh].digits);
     }
@@ -156,7 +157,7 @@ static int previews_add(lrcs_host_convergence *job, lrcs_host_error *error)
     for (int digits = 1; digits <= PREVIEWS && status == LRCS_OK; digits++) {
         lrcs_host_convergence_setting *setting = &job->setting[job->settings++];
         snprintf(setting->name, sizeof setting->name, LRCS_HOST_PREVIEW_NAME_TEXT " 1e-%d", digits);
-        setting->dial = LRCS_HOST_DIAL_PREVIEW;
+        setting->kind = LRCS_HOST_CONVERGENCE_KIND_PREVIEW;
         while (mesh + 1 < job->meshes && job->mesh[mesh].digits < digits) {
             mesh++;
         }
@@ -164,7 +165,7 @@ static int previews_add(lrcs_host_convergence *job, lrcs_host_error *error)
         setting->mesh = mesh;
         status = setting_run(job, setting, error);
         if (setting->method == LRCS_METHOD_FACET || setting->method == LRCS_METHOD_CLOSED) {
-            job->setting[--job->settings] = (lrcs_host_convergence_setting){.dial = 0};
+            job->setting[--job->settings] = (lrcs_host_convergence_setting){.kind = 0};
             break;
         }
     }
@@ -183,7 +184,8 @@ static int rasters_add(lrcs_host_convergence *job, uint32_t mesh, lrcs_host_erro
                              job->left_out[0] ? "; " : "left out: ", (unsigned long)n);
             break;
         }
-        status = setting_add(job, LRCS_HOST_DIAL_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh, error);
+        status = setting_add(job, LRCS_HOST_CONVERGENCE_KIND_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh,
+                             error);
         last = job->setting[job->settings - 1].spent_s;
     }
     return status;
@@ -207,21 +209,24 @@ static int settings_add(lrcs_host_convergence *job, lrcs_host_error *error)
         closed = result.method == LRCS_METHOD_CLOSED;
         method =
             closed || result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
-        status =
-            status != LRCS_OK ? status : setting_add(job, LRCS_HOST_DIAL_MESH, method, 0, i, error);
+        status = status != LRCS_OK
+                     ? status
+                     : setting_add(job, LRCS_HOST_CONVERGENCE_KIND_MESH, method, 0, i, error);
     }
     if (status == LRCS_OK &&
         method != LRCS_METHOD_FACET) { /* otherwise it has already been added */
-        status = setting_add(job, LRCS_HOST_DIAL_FACET, LRCS_METHOD_FACET, 0, finest, error);
+        status =
+            setting_add(job, LRCS_HOST_CONVERGENCE_KIND_FACET, LRCS_METHOD_FACET, 0, finest, error);
     }
     status = status != LRCS_OK ? status : rasters_add(job, finest, error);
     status = status != LRCS_OK ? status : previews_add(job, error);
     if (status == LRCS_OK && closed) { /* on the coarsest mesh, which is not used */
-        status = setting_add(job, LRCS_HOST_DIAL_CLOSED, LRCS_METHOD_CLOSED, 0, 0, error);
+        status =
+            setting_add(job, LRCS_HOST_CONVERGENCE_KIND_CLOSED, LRCS_METHOD_CLOSED, 0, 0, error);
     }
-    return status != LRCS_OK
-               ? status
-               : setting_add(job, LRCS_HOST_DIAL_EXACT, LRCS_METHOD_EXACT, 0, finest, error);
+    return status != LRCS_OK ? status
+                             : setting_add(job, LRCS_HOST_CONVERGENCE_KIND_EXACT, LRCS_METHOD_EXACT,
+                                           0, finest, error);
 }
 
 /* Runs settings again in turn, so that other load of the machine affects them all alike, until each
@@ -286,7 +291,7 @@ static int truth_closed(lrcs_host_convergence *job)
     }
     job->truth.sigma_m2 = closed.sigma_m2;
     job->truth.bound_m2 = closed.bound_m2;
-    job->truth.whole = 1;
+    job->truth.true_shapes = 1;
     snprintf(job->truth.text, sizeof job->truth.text, "the closed form of the %s",
              lrcs_shape_text(recipe->part[0].shape.kind));
     return 1;
@@ -302,10 +307,10 @@ static void settings_judge(lrcs_host_convergence *job, int closed)
         lrcs_host_convergence_setting setting = job->setting[i];
         int finest = setting.mesh == job->meshes - 1;
         setting.error_m2 = fabs(setting.sigma_m2 - job->truth.sigma_m2);
-        int shapes = setting.whole && job->truth.whole;
+        int shapes = setting.true_shapes && job->truth.true_shapes;
         int facets = finest && !closed;
         setting.bound_m2 = shapes || facets ? setting.bound_m2 : -1.0;
-        if (closed || setting.dial != LRCS_HOST_DIAL_MESH || !finest) {
+        if (closed || setting.kind != LRCS_HOST_CONVERGENCE_KIND_MESH || !finest) {
             setting.pose_s = lrcsi_host_median(setting.seconds, setting.runs);
             job->setting[kept++] = setting;
         }
@@ -326,10 +331,10 @@ int lrcs_host_convergence_measure(lrcs_host_convergence *job, lrcs_host_error *e
     for (uint32_t i = 0; i < job->settings; i++) {
         const lrcs_host_convergence_setting *setting = &job->setting[i];
         waited += setting->spent_s;
-        if (!closed && setting->dial == LRCS_HOST_DIAL_EXACT) {
+        if (!closed && setting->kind == LRCS_HOST_CONVERGENCE_KIND_EXACT) {
             job->truth.sigma_m2 = setting->sigma_m2;
             job->truth.bound_m2 = setting->bound_m2;
-            job->truth.whole = setting->whole;
+            job->truth.true_shapes = setting->true_shapes;
         }
     }
     if (!closed) {

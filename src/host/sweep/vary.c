@@ -46,12 +46,12 @@ static const struct {
 /* Splits "NAME.KEY", which begins the text of `vary`, and sets the parameter. */
 static int whom_split(const char *text, lrcs_host_plan_axis *axis, lrcs_host_error *error)
 {
-    char *dot = strrchr(axis->whom, '.');
+    char *dot = strrchr(axis->subject, '.');
     const char *best = NULL;
     axis->parameter = -1;
     for (int i = 1; dot && i < VARY_KEYS; i++) {
         axis->parameter =
-            dot > axis->whom && strcmp(vary_keys[i].name, dot + 1) == 0 ? i : axis->parameter;
+            dot > axis->subject && strcmp(vary_keys[i].name, dot + 1) == 0 ? i : axis->parameter;
         best = lrcs_host_name_nearer(dot + 1, best, vary_keys[i].name);
     }
     if (axis->parameter < 0) {
@@ -78,20 +78,20 @@ static int vary_axis_read(const lrcs_host_plan_text *one, lrcs_host_plan *plan,
         range = found ? at + 1 : NULL;
     }
     size_t size = range ? (size_t)(range - 1 - one->text) : 0;
-    if (!range || size >= sizeof axis.whom) {
+    if (!range || size >= sizeof axis.subject) {
         return lrcsi_text_refuse(error, one->key, joint ? "PART:A:B:STEP" : "NAME.KEY:A:B:STEP",
                                  one->text);
     }
-    memcpy(axis.whom, one->text, size);
+    memcpy(axis.subject, one->text, size);
     int status = joint ? LRCS_OK : whom_split(one->text, &axis, error);
     if (status != LRCS_OK) {
         return status;
     }
-    snprintf(column, sizeof column, "%s.%s", axis.whom, vary_keys[axis.parameter].name);
+    snprintf(column, sizeof column, "%s.%s", axis.subject, vary_keys[axis.parameter].name);
     status = lrcsi_axis_add(plan, one->key, column, range, strlen(range), error);
     if (status == LRCS_OK) {
         lrcs_host_plan_axis *added = &plan->axis[plan->axes - 1];
-        memcpy(added->whom, axis.whom, sizeof axis.whom);
+        memcpy(added->subject, axis.subject, sizeof axis.subject);
         added->parameter = axis.parameter;
         plan->scene_axes = plan->axes;
     }
@@ -111,17 +111,17 @@ int lrcsi_vary_read(const lrcs_host_plan_text *given, int count, lrcs_host_plan 
     return status;
 }
 
-/* ---- whom it means ---- */
+/* ---- the part or material that is meant ---- */
 
 /* 1 if a part is selected: by '*' (all), by its name, or by one of several names separated by
    commas. */
-static int part_is_meant(const char *whom, const char *name)
+static int part_is_meant(const char *subject, const char *name)
 {
     size_t size = strlen(name);
-    if (strcmp(whom, "*") == 0 || strcmp(whom, name) == 0) {
+    if (strcmp(subject, "*") == 0 || strcmp(subject, name) == 0) {
         return 1;
     }
-    for (const char *at = whom; at; at = strchr(at, ',')) {
+    for (const char *at = subject; at; at = strchr(at, ',')) {
         at += *at == ',';
         if (strncmp(at, name, size) == 0 && (at[size] == ',' || at[size] == '\0')) {
             return 1;
@@ -160,8 +160,8 @@ static int part_axis_check(const lrcs_host_plan_axis *axis, const lrcs_recipe *r
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_recipe_part part = recipe->part[i];
         int fits = part_fits(&part, axis->parameter);
-        best = fits ? lrcs_host_name_nearer(axis->whom, best, part.name) : best;
-        if (!fits || !part_is_meant(axis->whom, part.name)) {
+        best = fits ? lrcs_host_name_nearer(axis->subject, best, part.name) : best;
+        if (!fits || !part_is_meant(axis->subject, part.name)) {
             continue;
         }
         found++;
@@ -184,7 +184,7 @@ static int part_axis_check(const lrcs_host_plan_axis *axis, const lrcs_recipe *r
     return found ? LRCS_OK
                  : lrcsi_host_fail(error, LRCS_E_ARGUMENT,
                                    "%s: no part '%s' has %s; the nearest is '%s'", axis->key,
-                                   axis->whom, what, best);
+                                   axis->subject, what, best);
 }
 
 /* The material of that name, or NULL. */
@@ -206,15 +206,16 @@ static double *brdf_value(lrcs_brdf *brdf, int key)
 static int material_axis_check(const lrcs_host_plan_axis *axis, const lrcs_scene *scene,
                                lrcs_host_error *error)
 {
-    const lrcs_material *material = material_named(scene, axis->whom);
+    const lrcs_material *material = material_named(scene, axis->subject);
     const char *best = NULL;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *other = &scene->material[i];
-        best = other->name[0] ? lrcs_host_name_nearer(axis->whom, best, other->name) : best;
-        if (material && strcmp(other->name, axis->whom) == 0 &&
+        best = other->name[0] ? lrcs_host_name_nearer(axis->subject, best, other->name) : best;
+        if (material && strcmp(other->name, axis->subject) == 0 &&
             memcmp(&other->brdf, &material->brdf, sizeof other->brdf) != 0) {
             return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                                   "vary: two materials of the scene are named '%s'", axis->whom);
+                                   "vary: two materials of the scene are named '%s'",
+                                   axis->subject);
         }
     }
     if (!material) {
@@ -224,8 +225,9 @@ static int material_axis_check(const lrcs_host_plan_axis *axis, const lrcs_scene
             lrcs_host_append(list, sizeof list, "%s%s%s%s", name[0] && list[0] ? ", " : "",
                              name[0] ? "'" : "", name, name[0] ? "'" : "");
         }
-        int near = best && lrcs_host_name_is_near(axis->whom, best);
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "vary: no material '%s'%s%s%s", axis->whom,
+        int near = best && lrcs_host_name_is_near(axis->subject, best);
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "vary: no material '%s'%s%s%s",
+                               axis->subject,
                                near   ? "; the nearest is '"
                                : best ? "; the scene has "
                                       : "",
@@ -248,7 +250,7 @@ static int material_axis_check(const lrcs_host_plan_axis *axis, const lrcs_scene
 static lrcs_host_plan_axis joint_axis(const lrcs_host_track *track, uint32_t joint)
 {
     lrcs_host_plan_axis axis = {.key = "poses", .parameter = VARY_JOINT};
-    snprintf(axis.whom, sizeof axis.whom, "%.99s",
+    snprintf(axis.subject, sizeof axis.subject, "%.99s",
              track->joint_name[joint] + sizeof LRCS_HOST_TRACK_JOINT_TEXT - 1);
     return axis;
 }
@@ -277,13 +279,13 @@ static void material_set(lrcs_recipe *recipe, uint32_t bound, const lrcs_host_pl
                          double value, const lrcs_scene *scene)
 {
     uint32_t at = bound;
-    while (at < recipe->binding_count && strcmp(recipe->binding[at].name, axis->whom) != 0) {
+    while (at < recipe->binding_count && strcmp(recipe->binding[at].name, axis->subject) != 0) {
         at++;
     }
     if (at == recipe->binding_count) {
-        const lrcs_material *material = material_named(scene, axis->whom);
+        const lrcs_material *material = material_named(scene, axis->subject);
         recipe->binding[recipe->binding_count++] = (lrcs_binding){.kind = LRCS_BIND_NAME,
-                                                                  .name = axis->whom,
+                                                                  .name = axis->subject,
                                                                   .brdf = material->brdf,
                                                                   .two_sided = -1,
                                                                   .error = material->error,
@@ -301,7 +303,7 @@ static void recipe_set(lrcs_recipe *recipe, uint32_t bound, const lrcs_host_plan
     }
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_recipe_part *part = &recipe->part[i];
-        if (part_fits(part, axis->parameter) && part_is_meant(axis->whom, part->name)) {
+        if (part_fits(part, axis->parameter) && part_is_meant(axis->subject, part->name)) {
             *part_value(part, axis->parameter) = value;
         }
     }
