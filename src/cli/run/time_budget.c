@@ -58,7 +58,8 @@ typedef struct budget_answer {
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* Read by the child's signal handler: when to end, and whose child it is. */
+/* When the child has to end, and whose child it is. Only its signal handler (child_tick) reads
+   these, which cannot be given anything; child_start writes them once, before the first signal. */
 static double child_deadline;
 static pid_t child_parent;
 
@@ -163,16 +164,16 @@ static lrcs_sequence sequence_forecast(const run_job *job)
     return sequence;
 }
 
-/* All settings after the first, as long as each can be completed. */
-static void settings_run(run_job *job, int answers)
+/* All settings after the first, as long as each can be completed before the deadline (s, of
+   cli_seconds). */
+static void settings_run(run_job *job, double deadline, int answers)
 {
     const lrcs_run_options plain = job->options;
     lrcs_sequence sequence = sequence_forecast(job);
     budget_answer answer;
     int on = 1, finer = 0;
     double again = 0.0; /* time of reading and preparing the scene again */
-    for (int i;
-         on && (i = lrcs_sequence_next(&sequence, child_deadline - cli_seconds() - again)) >= 0;) {
+    for (int i; on && (i = lrcs_sequence_next(&sequence, deadline - cli_seconds() - again)) >= 0;) {
         job->options = plain;
         job->options = setting_options(job, &sequence.setting[i]);
         on = setting_send(job, answers, &answer);
@@ -211,14 +212,16 @@ static int child_start(run_job *job, pid_t *child)
     if (pipe(end) != 0) {
         return -1;
     }
-    child_deadline = job->budget.start + 1e-3 * job->budget.asked_ms;
-    child_parent = getpid();
+    const double deadline = job->budget.start + 1e-3 * job->budget.asked_ms;
+    const pid_t parent = getpid();
     fflush(NULL); /* otherwise both processes would write the buffered output */
     *child = fork();
     if (*child == 0) {
         const struct itimerval timer = {.it_interval.tv_usec = CHILD_TICK,
                                         .it_value.tv_usec = CHILD_TICK};
         struct sigaction action;
+        child_deadline = deadline;
+        child_parent = parent;
         memset(&action, 0, sizeof action);
         action.sa_flags = SA_RESTART;
         action.sa_handler = child_tick;
@@ -226,7 +229,7 @@ static int child_start(run_job *job, pid_t *child)
         close(end[0]);
         sigaction(SIGALRM, &action, NULL);
         setitimer(ITIMER_REAL, &timer, NULL);
-        settings_run(job, end[1]);
+        settings_run(job, deadline, end[1]);
         _exit(0);
     }
     close(end[1]);

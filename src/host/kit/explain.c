@@ -201,17 +201,17 @@ static lrcs_host_finding *finding_new(lrcs_host_judgement *job, const char *name
     return finding;
 }
 
-uint32_t lrcsi_search_explained_cases(const lrcsi_search *search)
+uint32_t lrcsi_search_explained_cases(const lrcsi_search *search, const unsigned char *explains)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failing_count; i++) {
-        count += search->explains[i];
+        count += explains[i];
     }
     return count;
 }
 
-lrcs_host_finding *lrcsi_search_finding_add(lrcsi_search *search, const char *name,
-                                            const char *format, ...)
+lrcs_host_finding *lrcsi_search_finding_add(lrcsi_search *search, const unsigned char *explains,
+                                            const char *name, const char *format, ...)
 {
     va_list list;
     lrcs_host_finding *finding = finding_new(search->job, name);
@@ -222,11 +222,11 @@ lrcs_host_finding *lrcsi_search_finding_add(lrcsi_search *search, const char *na
     vsnprintf(finding->text, sizeof finding->text, format, list);
     va_end(list);
     for (uint32_t i = 0; i < search->failing_count; i++) {
-        if (search->explains[i]) {
+        if (explains[i]) {
             search->failing[i]->explained = (int)search->job->findings;
         }
     }
-    finding->explained = lrcsi_search_explained_cases(search);
+    finding->explained = lrcsi_search_explained_cases(search, explains);
     cases_divide(search);
     return finding;
 }

@@ -40,21 +40,22 @@ typedef struct lrcsi_search {
     /* Room, whose contents no function takes over from another one unless it is given them: */
     double *answer, *other_answer; /* to the failing cases, then to the passing ones */
     double *room;                  /* for sorting */
-    /* What the finders of causes fill in before they call those below: */
-    unsigned char *explains; /* by failing case: 1 if the current cause explains it */
+    unsigned char *explains;       /* for the cases that a cause explains, as below */
 } lrcsi_search;
 
 /* 1 if an expected answer explains the one that was given. */
 int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case *one,
                            double expected);
 
-/* The number of failing cases that the current cause explains (search->explains). */
-uint32_t lrcsi_search_explained_cases(const lrcsi_search *search);
+/* The number of failing cases that a cause explains.
+   Given: explains[failing_count], 1 for each case that it explains. */
+uint32_t lrcsi_search_explained_cases(const lrcsi_search *search, const unsigned char *explains);
 
-/* Makes that cause a finding with its sentence: its cases are marked and no longer unexplained.
-   NULL if there is no room for one. */
-__attribute__((format(printf, 3, 4))) lrcs_host_finding *
-lrcsi_search_finding_add(lrcsi_search *search, const char *name, const char *format, ...);
+/* Makes a cause a finding with its sentence: the cases that it explains, given as above, are marked
+   and no longer among the failing ones. NULL if there is no room for one. */
+__attribute__((format(printf, 4, 5))) lrcs_host_finding *
+lrcsi_search_finding_add(lrcsi_search *search, const unsigned char *explains, const char *name,
+                         const char *format, ...);
 
 /* The median, the upper of the two middle values if their number is even; 0 of an empty list. Sorts
    the values. */

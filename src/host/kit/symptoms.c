@@ -52,10 +52,10 @@ static int reading_matches(const lrcs_host_judgement *job, const lrcs_host_kit_c
     return fabs(sigma_m2 - one->sigma_m2) <= lrcs_host_judge_allowed(one, job->grade, job->pixels);
 }
 
-/* 1 if the current cause explains most of the failures. */
-static int holds_most(const lrcsi_search *search)
+/* 1 if a cause explains most of the failures; explains: as for lrcsi_search_explained_cases. */
+static int explains_most(const lrcsi_search *search, const unsigned char *explains)
 {
-    uint32_t right = lrcsi_search_explained_cases(search);
+    uint32_t right = lrcsi_search_explained_cases(search, explains);
     return right >= LEAST && right >= MOST * search->failing_count;
 }
 
@@ -68,8 +68,9 @@ static void reading_try(lrcsi_search *search, const struct symptom_reading *read
         search->explains[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
     }
     lrcs_host_finding *finding =
-        holds_most(search) ? lrcsi_search_finding_add(search, reading->name, "%s", reading->text)
-                           : NULL;
+        explains_most(search, search->explains)
+            ? lrcsi_search_finding_add(search, search->explains, reading->name, "%s", reading->text)
+            : NULL;
     for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
         if (one->given && !isfinite(one->answer_m2) && one->explained == 0 &&
@@ -124,9 +125,9 @@ static void digits_try(lrcsi_search *search)
             search->explains[i] = fabs(one->answer_m2 - one->sigma_m2) <=
                                   room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
         }
-        if (digits < DIGITS && holds_most(search) &&
+        if (digits < DIGITS && explains_most(search, search->explains) &&
             lrcsi_search_finding_add(
-                search, "few-digits",
+                search, search->explains, "few-digits",
                 "few digits: every answer is rounded to %d %s%s: print %%.9g or more", digits,
                 significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
             return;
@@ -148,7 +149,7 @@ void lrcsi_symptoms_format(lrcsi_search *search)
     if (given > 0 && blank) {
         memset(search->explains, 1, search->failing_count);
         lrcsi_search_finding_add(
-            search, "blank",
+            search, search->explains, "blank",
             "every answer is 0: nothing drawn, everything culled or outside the "
             "window, or the buffer never read back");
         return;
@@ -193,7 +194,7 @@ static void coarse_try(lrcsi_search *search)
     if (2 * count > job->given && lrcsi_search_upper_median(search->room, count) >= COARSE_SHARE) {
         memset(search->explains, 1, search->failing_count);
         lrcsi_search_finding_add(
-            search, "coarse-raster",
+            search, search->explains, "coarse-raster",
             "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
             "%.0f or fewer: give --pixels N, or render finer",
             (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
@@ -222,8 +223,8 @@ static void depth_try(lrcsi_search *search)
         search->explains[i] = skins > 0;
     }
     if (coarsest < SKINS_TOUCH &&
-        2 * lrcsi_search_explained_cases(search) > search->failing_count) {
-        lrcsi_search_finding_add(search, "depth-precision",
+        2 * lrcsi_search_explained_cases(search, search->explains) > search->failing_count) {
+        lrcsi_search_finding_add(search, search->explains, "depth-precision",
                                  "depth precision: skins 2^-%d m apart in a scene 8 m deep are not "
                                  "distinguished: a depth of some %d bits or fewer",
                                  coarsest, coarsest + 3);
@@ -269,9 +270,9 @@ static int z_fighting_try(lrcsi_search *search)
             return status;
         }
     }
-    if (lrcsi_search_explained_cases(search) > 0) {
+    if (lrcsi_search_explained_cases(search, search->explains) > 0) {
         lrcsi_search_finding_add(
-            search, "coincident-skins",
+            search, search->explains, "coincident-skins",
             "coincident skins, decided by rounding or by order (z-fighting): of facets "
             "in one plane a front has precedence over a back, then the lower index; push backs "
             "away by some roundings of the scene's size");
@@ -311,7 +312,7 @@ static void bias_try(lrcsi_search *search)
             (unsigned char)lrcsi_search_explained(search, one, median * one->sigma_m2);
     }
     lrcs_host_finding *finding = lrcsi_search_finding_add(
-        search, lrcsi_factor_name(median),
+        search, search->explains, lrcsi_factor_name(median),
         "all answers are %.6g times the truth: most are within their allowance, but %.0f %% differ "
         "in the same direction, which errors of a raster do not: %s",
         median, 100.0 * nearer / count, lrcsi_factor_text(median, job->pixels));
@@ -344,8 +345,8 @@ int lrcsi_symptoms_rest(lrcsi_search *search)
         for (uint32_t i = 0; i < search->failing_count; i++) {
             search->explains[i] = search->failing[i]->grade == class[k].grade;
         }
-        if (lrcsi_search_explained_cases(search) > 0) {
-            lrcsi_search_finding_add(search, class[k].name, "%s", class[k].text);
+        if (lrcsi_search_explained_cases(search, search->explains) > 0) {
+            lrcsi_search_finding_add(search, search->explains, class[k].name, "%s", class[k].text);
         }
     }
     return 0;
