@@ -19,7 +19,7 @@ int cli_run_outputs_read(run_job *job)
                         : cli_value(args, "shares") ? "shares"
                                                     : NULL;
     int method = job->options.method;
-    job->facets = cli_value(args, "facets");
+    job->facets_path = cli_value(args, "facets");
     job->polygons_path = cli_value(args, "polygons");
     job->image_path = cli_value(args, "image");
 
@@ -42,7 +42,7 @@ int cli_run_outputs_read(run_job *job)
 
     /* 2. No file is standard output beside what --explain or --shares print there. */
     const char *const option[2] = {"facets", "polygons"};
-    const char *const path[2] = {job->facets, job->polygons_path};
+    const char *const path[2] = {job->facets_path, job->polygons_path};
     for (int i = 0; table && i < 2; i++) {
         if (to_stdout(path[i])) {
             return cli_usage(args->command, "--%s - and --%s both want standard output", option[i],
@@ -70,7 +70,7 @@ int cli_run_outputs_read(run_job *job)
 
 int cli_run_outputs_stdout(const run_job *job)
 {
-    return to_stdout(job->facets) || to_stdout(job->polygons_path);
+    return to_stdout(job->facets_path) || to_stdout(job->polygons_path);
 }
 
 static void facets_write(FILE *out, const void *context)
@@ -113,6 +113,6 @@ static int table_write(const run_job *job, const char *path, cli_text_writer *wr
 int cli_run_outputs_write(const run_job *job)
 {
     int code = job->image_path ? cli_output_write(job->image_path, image_write, job) : 0;
-    code = code ? code : table_write(job, job->facets, facets_write);
+    code = code ? code : table_write(job, job->facets_path, facets_write);
     return code ? code : table_write(job, job->polygons_path, polygons_write);
 }

@@ -101,6 +101,9 @@ static const cli_option run_options[] = {CLI_POSE_OPTIONS,
 
 /* ---- options ---- */
 
+/* The scene is divided for the method that the options state, before an emulation replaces it. What
+   tolerance is judged follows from all of them: a time budget ends at the first answer that meets a
+   tolerance only if one is given. */
 static int run_options_read(run_job *job)
 {
     const cli_args *args = job->args;
@@ -111,12 +114,13 @@ static int run_options_read(run_job *job)
     job->options.steps = steps;
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
-    job->asked = job->options.tolerance;
     cli_division_set(&job->options, &job->load);
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);
-    job->asked = cli_tolerance_judged(args, &job->options) ? job->asked : 0.0;
+    int judged = job->budget.asked_ms > 0.0 ? cli_value(args, "tolerance") != NULL
+                                            : cli_tolerance_judged(args, &job->options);
+    job->asked = judged ? job->options.tolerance : 0.0;
     job->explain = cli_value(args, "explain") != NULL;
     job->shares_asked = cli_value(args, "shares") != NULL;
     return code ? code : cli_normals_read(args, &job->load);
@@ -152,7 +156,7 @@ static int run_scene_prepare(run_job *job)
 static int run_records(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
-    int needed = job->facets || job->image_path || job->shares_asked || job->emulation.asked;
+    int needed = job->facets_path || job->image_path || job->shares_asked || job->emulation.asked;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         needed |= scene->part[i].kind < 0 || !scene->part[i].solid;
     }
@@ -205,6 +209,7 @@ int cli_run_divide(run_job *job)
     job->divided = scene->levels != NULL;
     int code = job->divided ? run_scene_prepare(job) : 0;
     double *part_error = calloc(scene->scene.part_count + (size_t)1, sizeof *part_error);
+    code = code == 0 && !part_error ? cli_out_of_memory() : code;
     for (int finer = job->divided; finer && code == 0;) {
         cli_watch_stage("pose", NULL);
         job->options.progress = cli_watch_run();
@@ -229,7 +234,7 @@ int cli_run_divide(run_job *job)
 int cli_run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
-    int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
+    int files = job->facets_path || job->polygons_path || job->image_path || job->shares_asked;
     cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args, &job->scene);

@@ -46,7 +46,7 @@ typedef struct run_job {
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
-    const char *facets, *polygons_path, *image_path;
+    const char *facets_path, *polygons_path, *image_path;
     uint32_t image_size;
     lrcs_host_scene scene;
     lrcs_result result;

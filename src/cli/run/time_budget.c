@@ -37,18 +37,18 @@
 #include <unistd.h>
 
 /* The tolerances that are tried. */
-static const double rungs[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e-5,
-                               1e-5, 3e-6,  1e-6,  3e-7,  1e-7,  3e-8,  1e-8, 3e-9,
-                               1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
+static const double tolerances[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e-5,
+                                    1e-5, 3e-6,  1e-6,  3e-7,  1e-7,  3e-8,  1e-8, 3e-9,
+                                    1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
-#define RUNGS (sizeof rungs / sizeof rungs[0])
+#define TOLERANCES (sizeof tolerances / sizeof tolerances[0])
 
 /* How often the child process looks at the clock, us. */
 #define CHILD_TICK 5000
 
-/* An answer on its way to the parent process. A pointer of the child's says nothing there, except
-   to constant texts (the reasons in `result`), which are at the same address in both processes; the
-   parent uses no other. */
+/* An answer on its way to the parent process. Of its pointers the parent uses only those to constant
+   texts (the reasons in `result`), which are at the same address in both processes; all others refer
+   to memory of the child. */
 typedef struct budget_answer {
     lrcs_result result;
     lrcs_run_options options;
@@ -185,9 +185,9 @@ static void settings_run(run_job *job, double deadline, int answers)
         finer = job->options.method == LRCS_METHOD_AUTO &&
                 !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     }
-    for (size_t i = 1; i < RUNGS && on && finer; i++) {
-        job->options.tolerance = rungs[i];
-        if (!cli_run_meets(&answer.result, rungs[i])) {
+    for (size_t i = 1; i < TOLERANCES && on && finer; i++) {
+        job->options.tolerance = tolerances[i];
+        if (!cli_run_meets(&answer.result, tolerances[i])) {
             on = setting_send(job, answers, &answer);
             finer = !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
         }
@@ -293,7 +293,6 @@ int cli_run_budget_read(run_job *job)
                              "--time-budget chooses the settings itself: leave out --%s", clash[i]);
         }
     }
-    job->asked = cli_value(args, "tolerance") ? job->asked : 0.0;
     return 0;
 }
 
@@ -347,7 +346,7 @@ int cli_run_budget(run_job *job)
     pid_t child;
     cli_watch_stage("trying settings", NULL);
     job->options.tolerance =
-        tolerance_matters(job) ? rungs[0] : lrcs_run_options_default().tolerance;
+        tolerance_matters(job) ? tolerances[0] : lrcs_run_options_default().tolerance;
     job->options.method = LRCS_METHOD_FACET;
     int code = budget_setting_run(job, &best);
     if (code != 0) {
