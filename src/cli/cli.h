@@ -4,9 +4,8 @@
 #ifndef LRCS_CLI_H
 #define LRCS_CLI_H
 
+#include <lrcs/constant.h>
 #include <lrcs/picture.h>
-
-#define CLI_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
 
 enum cli_exit {
     CLI_DONE = 0,

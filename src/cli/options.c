@@ -44,8 +44,8 @@ void cli_pose_unit(const lrcs_pose *pose, double s_hat[3])
 void cli_pose_azel(const lrcs_pose *pose, double azel_deg[2])
 {
     const double *d = pose->direction;
-    azel_deg[0] = atan2(d[1], d[0]) * CLI_DEGREES;
-    azel_deg[1] = atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES;
+    azel_deg[0] = atan2(d[1], d[0]) * LRCS_DEGREES_PER_RADIAN;
+    azel_deg[1] = atan2(d[2], hypot(d[0], d[1])) * LRCS_DEGREES_PER_RADIAN;
 }
 
 /* ---- accuracy and method ---- */

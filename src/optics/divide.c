@@ -120,7 +120,7 @@ static double straight_wall_error(const divided_wall *wall, const lrcs_shape *sh
     double psi = shape->kind == LRCS_SHAPE_CYLINDER ? 0.0 /* elevation of the wall's normal */
                  : shape->kind == LRCS_SHAPE_FRUSTUM
                      ? atan2(shape->radius2 - shape->radius, shape->length)
-                 : shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCS_PI / 180.0)
+                 : shape->half_angle_deg > 0.0 ? shape->half_angle_deg * LRCS_RADIANS_PER_DEGREE
                                                : atan2(shape->radius, shape->length);
     double mean = mean_over_sphere(wall).sigma;
     double glint = 0.5 * LRCS_PI - psi;

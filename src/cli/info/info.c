@@ -91,7 +91,7 @@ static void info_json(const cli_args *args, const info_job *info)
         lrcs_host_json_put(
             &json, "{part=%s material=%s s=%g turn_estimate_deg=%g relative_error_estimate=%g",
             scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
-            glint->turn * CLI_DEGREES, glint->error);
+            glint->turn * LRCS_DEGREES_PER_RADIAN, glint->error);
         lrcs_host_json_put(&json, "facets_around_for_1e-2=%g facets_around_for_1e-3=%g}",
                            glint->around_1_percent, glint->around_01_percent);
     }
@@ -150,7 +150,7 @@ static void table_glint(const lrcs_host_inventory *all, const lrcs_scene *scene)
         cli_column(scene->part[glint->part].name, 20);
         printf(" ");
         cli_column(cli_material_name(&scene->material[glint->material]), 20);
-        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * CLI_DEGREES,
+        printf(" %6g %9.3g %8.2g%s %8.0f %8.0f\n", glint->s, glint->turn * LRCS_DEGREES_PER_RADIAN,
                glint->error, glint->error > LRCS_HOST_GLINT_COARSE ? "!" : " ",
                glint->around_1_percent, glint->around_01_percent);
     }

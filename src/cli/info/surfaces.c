@@ -34,7 +34,7 @@ static void surface_row(const lrcs_scene *scene, const lrcs_quadric_region *regi
     printf("  %-8s ", kind_text[surface->kind]);
     cli_column(cli_material_name(&scene->material[region->material]), 20);
     printf(" %7lu %10.4g %11.3g %8.3g %8.2g%s ", (unsigned long)region->facet_count, region->area,
-           region->bound.displacement, region->bound.normal_angle * CLI_DEGREES,
+           region->bound.displacement, region->bound.normal_angle * LRCS_DEGREES_PER_RADIAN,
            region->glint_error, region->glint_error > LRCS_HOST_GLINT_COARSE ? "!" : " ");
     switch (surface->kind) {
     case LRCS_QUADRIC_PLANE:
@@ -49,8 +49,9 @@ static void surface_row(const lrcs_scene *scene, const lrcs_quadric_region *regi
                region->bound.inside ? ", inside" : "");
         break;
     default:
-        printf(" half angle %.5g deg, apex %s, axis %s%s\n", atan(surface->slope) * CLI_DEGREES,
-               point, axis, region->bound.inside ? ", inside" : "");
+        printf(" half angle %.5g deg, apex %s, axis %s%s\n",
+               atan(surface->slope) * LRCS_DEGREES_PER_RADIAN, point, axis,
+               region->bound.inside ? ", inside" : "");
         break;
     }
 }
@@ -117,7 +118,7 @@ void cli_surfaces_json(const lrcs_host_surfaces *surfaces, const lrcs_scene *sce
         }
         if (surface->kind == LRCS_QUADRIC_CONE) {
             lrcs_host_json_put(json, "half_angle_deg=%g half_angle_tangent=%g",
-                               atan(surface->slope) * CLI_DEGREES, surface->slope);
+                               atan(surface->slope) * LRCS_DEGREES_PER_RADIAN, surface->slope);
         } else {
             lrcs_host_json_put(json, "half_angle_deg=null half_angle_tangent=null");
         }
@@ -126,7 +127,8 @@ void cli_surfaces_json(const lrcs_host_surfaces *surfaces, const lrcs_scene *sce
                            "normal_angle_bound_deg=%g glint_error_estimate=%g}",
                            region->bound.inside, region->facet_count, region->first_facet,
                            region->area, region->bound.displacement,
-                           region->bound.normal_angle * CLI_DEGREES, region->glint_error);
+                           region->bound.normal_angle * LRCS_DEGREES_PER_RADIAN,
+                           region->glint_error);
     }
     lrcs_host_json_end(json);
 }

@@ -66,7 +66,7 @@ static void model_glint(FILE *out, const lrcs_host_inventory *info, const lrcs_s
         const lrcs_host_glint *glint = &info->glint[i];
         cli_page_row(out, "%s(no name)%s(default)%.4g%.3g%.2g%.6g%.6g",
                      scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
-                     glint->turn * CLI_DEGREES, glint->error, glint->around_1_percent,
+                     glint->turn * LRCS_DEGREES_PER_RADIAN, glint->error, glint->around_1_percent,
                      glint->around_01_percent);
     }
     cli_page_table_end(out);

@@ -133,7 +133,7 @@ static void peak_facets_print(const cli_shares *shares, const lrcs_host_glint *c
     for (uint32_t i = 0; i < count && shares->facets > 0; i++) {
         normal |= facet->scene_part == coarse[i].part &&
                   facet->scene_material == coarse[i].material &&
-                  tan(facet->theta_deg / CLI_DEGREES) < coarse[i].s &&
+                  tan(facet->theta_deg / LRCS_DEGREES_PER_RADIAN) < coarse[i].s &&
                   2.0 * facet->glint_m2 > facet->sigma_m2;
     }
     if (normal) {

@@ -12,7 +12,6 @@
 #define POLAR_RINGS 5.0
 #define POLAR_SPOKE 30   /* deg */
 #define POLAR_ROOM  26.0 /* for the spokes' names */
-#define POLAR_RAD   (LRCS_PI / 180.0)
 
 typedef struct polar_layout {
     const lrcs_host_chart *chart;
@@ -25,8 +24,8 @@ typedef struct polar_layout {
 static lrcsi_plot_point polar_point(const polar_layout *layout, double deg, double fraction)
 {
     double away = layout->radius * fraction;
-    return (lrcsi_plot_point){layout->pole.x + away * cos(deg * POLAR_RAD),
-                              layout->pole.y - away * sin(deg * POLAR_RAD)};
+    return (lrcsi_plot_point){layout->pole.x + away * cos(deg * LRCS_RADIANS_PER_DEGREE),
+                              layout->pole.y - away * sin(deg * LRCS_RADIANS_PER_DEGREE)};
 }
 
 /* The range of distances to be shown; unless it begins at 0, at most POLAR_DEPTH. */

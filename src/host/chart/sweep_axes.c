@@ -9,8 +9,7 @@
 #include "base/constant.h"
 #include "host/fail.h"
 
-#define PLOT_ROWS    ((uint64_t)1 << 28) /* sigma and bound of these take 4 GiB */
-#define PLOT_DEGREES (180.0 / LRCS_PI)   /* degrees per radian */
+#define PLOT_ROWS ((uint64_t)1 << 28) /* sigma and bound of these take 4 GiB */
 
 /* ---- words ---- */
 
@@ -83,7 +82,7 @@ uint32_t lrcs_host_sweep_chart_choose(lrcs_host_sweep_chart *plot)
         axis[count++] = (lrcs_host_sweep_axis){plan->axes, plan->track.count, "time"};
     }
     if (plan->kind == LRCS_HOST_PLAN_SPHERE) { /* 2 */
-        double apart = PLOT_DEGREES * sqrt(4.0 * (180.0 / PLOT_DEGREES) / (double)plan->rows);
+        double apart = LRCS_DEGREES_PER_RADIAN * sqrt(LRCS_FOUR_PI / (double)plan->rows);
         uint32_t i = 0;
         while (i < 3 && 3.0 * degrees[i + 1] <= apart) {
             i++;

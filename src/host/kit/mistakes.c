@@ -12,8 +12,7 @@
 #include "base/constant.h"
 #include "host/fail.h"
 
-#define DEGREES_PER_RADIAN (180.0 / LRCS_PI)
-#define TWINS_MOST         256u /* scenes with more facets are not searched for coincident facets */
+#define TWINS_MOST 256u /* scenes with more facets are not searched for coincident facets */
 
 /* The point at which a facet is shaded. */
 typedef struct mistake_point {
@@ -107,7 +106,7 @@ static double mistake_shade(const lrcsi_mistake *mistake, const mistake_point *p
     double c = point->c;
     double s = point->brdf->s;
     double theta = acos(c);
-    double degrees = theta * DEGREES_PER_RADIAN;
+    double degrees = theta * LRCS_DEGREES_PER_RADIAN;
     double tan2 = 1.0 / (c * c) - 1.0;
     double right = lrcs_brdf_eval(point->brdf, c) * c;
     double wrong, from, to;
@@ -144,12 +143,12 @@ static double mistake_shade(const lrcsi_mistake *mistake, const mistake_point *p
         return shade_as(brdf, c, c);
     case SHADE_TABLE:
         wrong = parameter * floor(degrees / parameter); /* the entry at or below theta */
-        from = lrcs_brdf_eval(&brdf, cos(wrong / DEGREES_PER_RADIAN));
-        to = lrcs_brdf_eval(&brdf, cos((wrong + parameter) / DEGREES_PER_RADIAN));
+        from = lrcs_brdf_eval(&brdf, cos(wrong / LRCS_DEGREES_PER_RADIAN));
+        to = lrcs_brdf_eval(&brdf, cos((wrong + parameter) / LRCS_DEGREES_PER_RADIAN));
         return (from + (degrees - wrong) / parameter * (to - from)) * c;
     case SHADE_ROUNDED:
         wrong = parameter * floor(degrees / parameter + 0.5);
-        return shade_as(brdf, cos(wrong / DEGREES_PER_RADIAN), c);
+        return shade_as(brdf, cos(wrong / LRCS_DEGREES_PER_RADIAN), c);
     case SHADE_BITS:
         return shade_quantised(right, parameter);
     case SHADE_BITS_PEAK:
@@ -272,9 +271,10 @@ static int mistake_pose_make(const lrcsi_mistake *mistake, const lrcs_host_kit_c
     case POSE_RADIANS:
         return pose_at(az, el, pose);
     case POSE_POLAR:
-        return pose_at(az / DEGREES_PER_RADIAN, 0.5 * LRCS_PI - el / DEGREES_PER_RADIAN, pose);
+        return pose_at(az / LRCS_DEGREES_PER_RADIAN, 0.5 * LRCS_PI - el / LRCS_DEGREES_PER_RADIAN,
+                       pose);
     case POSE_EXCHANGED:
-        return pose_at(el / DEGREES_PER_RADIAN, az / DEGREES_PER_RADIAN, pose);
+        return pose_at(el / LRCS_DEGREES_PER_RADIAN, az / LRCS_DEGREES_PER_RADIAN, pose);
     default:
         break;
     }

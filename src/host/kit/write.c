@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/constant.h"
 #include "host/files/file.h"
 #include "host/kit/vectors.h"
 
@@ -81,8 +82,8 @@ static int case_make(const lrcsi_vectors_scene *scene, const lrcsi_vectors_attit
     for (int k = 0; k < 3; k++) {
         s[k] = d[k] / length;
     }
-    one->azel_deg[0] = 180.0 / LRCS_PI * atan2(s[1], s[0]);
-    one->azel_deg[1] = 180.0 / LRCS_PI * atan2(s[2], hypot(s[0], s[1]));
+    one->azel_deg[0] = LRCS_DEGREES_PER_RADIAN * atan2(s[1], s[0]);
+    one->azel_deg[1] = LRCS_DEGREES_PER_RADIAN * atan2(s[2], hypot(s[0], s[1]));
     return lrcsi_kit_pose(one->quaternion, s, &one->pose);
 }
 

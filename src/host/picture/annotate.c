@@ -53,8 +53,8 @@ void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, do
     const double *d = colouring->picture->pose->direction;
     char pose[80];
     /* + 0.0 turns a negative zero into zero */
-    double az = atan2(d[1], d[0]) * (180.0 / LRCS_PI) + 0.0;
-    double el = atan2(d[2], hypot(d[0], d[1])) * (180.0 / LRCS_PI) + 0.0;
+    double az = atan2(d[1], d[0]) * LRCS_DEGREES_PER_RADIAN + 0.0;
+    double el = atan2(d[2], hypot(d[0], d[1])) * LRCS_DEGREES_PER_RADIAN + 0.0;
     snprintf(pose, sizeof pose, "azimuth %.4g deg, elevation %.4g deg", az, el);
     const lrcsi_plot_text title = {.text =
                                        colouring->picture->title ? colouring->picture->title : "",

@@ -13,7 +13,6 @@
 #define SCALE_DB      40.0 /* the largest range of the scale of sigma */
 #define SCALE_BINS    800  /* a histogram of -400 .. 400 dB */
 #define SCALE_LABELS  9.0
-#define DEGREES       (180.0 / LRCS_PI)
 #define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
 #define VISIBLE_SLOPE 1e-9      /* a slope that no colour shows */
 #define CREASE_COSINE 0.05      /* cosines that differ by more show an edge */
@@ -274,7 +273,7 @@ uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet
         break;
     case LRCS_HOST_BY_THETA:
         if (record->cos_theta >= 0.0 || material->two_sided) {
-            value = DEGREES * acos(cosine);
+            value = LRCS_DEGREES_PER_RADIAN * acos(cosine);
         }
         break;
     case LRCS_HOST_BY_RANGE:

@@ -164,7 +164,7 @@ static void brightest_insert(const shares_index *index, uint32_t facet,
         .scene_material = index->scene->facet_material[facet],
         .part = shares->part[part_of_facet(index, facet)].name,
         .material = shares->material[index->material_of[index->scene->facet_material[facet]]].name,
-        .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * (180.0 / LRCS_PI),
+        .theta_deg = acos(fmin(fabs(record->cos_theta), 1.0)) * LRCS_DEGREES_PER_RADIAN,
         .visible_area_m2 = record->visible_area_m2,
         .sigma_m2 = record->sigma_m2,
         .glint_m2 = record->sigma_glint_m2};

@@ -13,9 +13,8 @@
 #include "host/sweep/axis.h"
 #include "host/sweep/vary.h"
 
-#define PLAN_ROWS    ((uint64_t)1 << 53) /* far more than can be computed */
-#define SPHERE_MOST  4e9
-#define PLAN_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
+#define PLAN_ROWS   ((uint64_t)1 << 53) /* far more than can be computed */
+#define SPHERE_MOST 4e9
 
 /* ---- from texts ---- */
 
@@ -343,8 +342,8 @@ double lrcs_host_plan_weight(const lrcs_host_plan *plan, uint64_t row)
             int full_turn = fabs(lrcs_host_range_at(range, last) - first) == 360.0;
             weight *= full_turn && (place == 0 || place == last) ? 0.5 : 1.0;
         } else {
-            double width = sin(fmin(here + half, 90.0) / PLAN_DEGREES) -
-                           sin(fmax(here - half, -90.0) / PLAN_DEGREES);
+            double width = sin(fmin(here + half, 90.0) / LRCS_DEGREES_PER_RADIAN) -
+                           sin(fmax(here - half, -90.0) / LRCS_DEGREES_PER_RADIAN);
             weight *= fmax(width, 0.0);
         }
     }

@@ -271,7 +271,7 @@ lrcsi_revolution lrcsi_revolution_make(const lrcs_shape *shape, const lrcs_divis
         body.height = shape->length;
     } else if (shape->kind == LRCS_SHAPE_CONE) {
         body.height = shape->half_angle_deg > 0.0
-                          ? shape->radius / tan(shape->half_angle_deg * (LRCS_PI / 180.0))
+                          ? shape->radius / tan(shape->half_angle_deg * LRCS_RADIANS_PER_DEGREE)
                           : shape->length;
     } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         body.height = shape->length;

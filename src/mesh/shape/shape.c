@@ -65,7 +65,6 @@ static int shape_check_one(double value, int used, const char *item, double limi
 /* A cone's height is given by exactly one of two numbers. */
 static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
 {
-    const double radian = LRCS_PI / 180.0;
     if (shape->half_angle_deg > 0.0 && shape->length > 0.0) {
         return shape_fault(where, LRCS_E_ARGUMENT, "length",
                            "a half-angle or a length for a cone, not both", "both");
@@ -79,7 +78,8 @@ static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
                            "90 or more");
     }
     if (shape->half_angle_deg > 0.0 &&
-        !(shape->radius / tan(shape->half_angle_deg * radian) <= LRCSI_COORDINATE_MAX)) {
+        !(shape->radius / tan(shape->half_angle_deg * LRCS_RADIANS_PER_DEGREE) <=
+          LRCSI_COORDINATE_MAX)) {
         return shape_fault(where, LRCS_E_NUMBER, "half_angle_deg", "a cone no longer than 1e100 m",
                            "a longer one");
     }
