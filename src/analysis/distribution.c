@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/constant.h"
 #include "base/sum.h"
 
 #define HISTOGRAM_DEEP 100.0 /* the histogram reaches this many dB below the maximum */
@@ -62,7 +63,7 @@ static void mean_make(const lrcs_distribution_row *row, lrcs_distribution *d)
     double n = (double)d->rows;
     double value = lrcsi_sum_value(&mean) / d->weight;
     double within =
-        lrcsi_sum_value(&bound) / d->weight * (1.0 + 8.0 * DBL_EPSILON) + 4.0 * DBL_EPSILON * value;
+        lrcsi_sum_value(&bound) / d->weight * (1.0 + 16.0 * LRCSI_U) + 8.0 * LRCSI_U * value;
     d->mean_m2 = (lrcs_distribution_value){{fmax(value - within, 0.0), value, value + within,
                                             lrcsi_sum_value(&low) / d->weight,
                                             lrcsi_sum_value(&high) / d->weight}};
@@ -101,8 +102,7 @@ static void bins_choose(const lrcs_distribution_row *row, lrcs_distribution *d)
 
 /* Percentiles and shares of sigma moved to an end. Sigma of every row lies between its ends, and a
    percentile increases with every sigma, so that the percentiles of the ends enclose it. If weights
-   are not whole numbers, two sums of n weights differ by at most 2 n u of the whole,
-   u = DBL_EPSILON / 2. */
+   are not whole numbers, two sums of n weights differ by at most 2 n u of the whole. */
 static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_row *end, int which,
                            lrcs_distribution *d)
 {
@@ -112,7 +112,7 @@ static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_r
         LRCS_DISTRIBUTION_HIGH, LRCS_DISTRIBUTION_LOW};
     int whole = d->weight == (double)d->rows; /* all weights are 1, and sums are exact */
     int side = which == LRCS_DISTRIBUTION_LEAST ? -1 : which == LRCS_DISTRIBUTION_MOST;
-    double slack = whole ? 0.0 : side * (double)d->rows * DBL_EPSILON * d->weight;
+    double slack = whole ? 0.0 : side * 2.0 * (double)d->rows * LRCSI_U * d->weight;
     for (uint64_t i = 0; i < d->rows; i++) {
         end[i] = row[i];
         if (end[i].bound_m2 > 0.0 && side != 0) {
