@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Attacks on readers: cut, flipped and inflated bytes, and too little memory. Each input lies in a
-   block of exactly its size, so that the address sanitiser sees any look beyond it; whatever comes
-   out is either a status with a place, or a mesh that keeps its promises. */
+   block of exactly its size, so that the address sanitiser sees any access beyond it. A reader must
+   return either an error with the place of the fault, or a valid mesh. */
 #ifndef TEST_HOSTILE_H
 #define TEST_HOSTILE_H
 
@@ -111,11 +111,12 @@ static inline void attack_by_bits(const hostile_reader *reader, const void *byte
     free(copy);
 }
 
-/* One to eight random bytes at a time; one in four is a value that lengths and counts fear. */
+/* Replaces one to eight bytes at a time: one in four by a boundary case of lengths and counts, the
+   others by random values. */
 static inline void attack_by_bytes(const hostile_reader *reader, const void *bytes, size_t size,
                                    int times)
 {
-    static const unsigned char feared[] = {0x00, 0x01, 0x05, 0x06, 0x07, 0x7f, 0x80, 0xff};
+    static const unsigned char boundary[] = {0x00, 0x01, 0x05, 0x06, 0x07, 0x7f, 0x80, 0xff};
     uint64_t state = 88172645463325252u;
     unsigned char *copy = malloc(size);
     assert_non_null(copy);
@@ -125,7 +126,7 @@ static inline void attack_by_bytes(const hostile_reader *reader, const void *byt
         for (uint32_t k = 0; k < count; k++) {
             uint32_t value = hostile_random(&state);
             size_t at = hostile_random(&state) % size;
-            copy[at] = value % 4 == 0 ? feared[value / 4 % 8] : (unsigned char)(value >> 8);
+            copy[at] = value % 4 == 0 ? boundary[value / 4 % 8] : (unsigned char)(value >> 8);
         }
         check_read(reader, copy, size);
     }

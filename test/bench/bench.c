@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What loading, preparing and whole poses cost on this machine: models named on the command line,
    generated satellites, a space station stored with single and with doubled faces, a mesh with one
-   very distant vertex, the scenes of ../shared/cases, beside other engines where they are built.
+   very distant vertex, scenes that are hard for exact visibility (measure_cases); beside other
+   engines (peers.h).
    Medians over directions all around, every cell of the table in a process of its own under a time
    limit. It decides what is measured. */
 #include <lrcs/host.h>
@@ -367,7 +368,10 @@ static void measure_special(bench_job *job)
     }
 }
 
-/* The scenes of ../shared/cases, each from the direction that its generator names. */
+/* Scenes in which very many surfaces overlap, each from one direction: n horizontal strips in front
+   of n vertical ones (hatch), n equal triangles 1e-6 m apart (stack), n pages around one spine
+   (book), the wall of a zigzag cylinder with 2 n points (star). NAME.py in the folder of --cases
+   writes each as OBJ for a given n; scenes whose program is not there are left out. */
 static void measure_cases(bench_job *job)
 {
     static const struct {

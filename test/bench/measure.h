@@ -30,7 +30,8 @@ void bench_check(int status, const char *what);
 /* Memory, or the end of the program. */
 void *bench_memory(size_t size);
 
-/* BENCH_DIRECTIONS directions all around, none of them special: those of ../shared/peers. */
+/* Pose number `direction` of BENCH_DIRECTIONS, spread evenly over the sphere, none along an axis;
+   the programs of peers.h use the same ones. */
 lrcs_pose bench_pose(int direction);
 
 /* Processor, compiler, flags, date and load, a line each. */

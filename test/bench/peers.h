@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Other engines on the same mesh from the same directions: ../shared/peers, where they are built.
- */
+/* Other engines on the same mesh from the same directions: programs that draw pictures by OpenGL
+   (gl_lrcs) and by Embree (embree_lrcs). They are not part of this repository; bench measures them
+   if --peers names the folder that has them. */
 #ifndef BENCH_PEERS_H
 #define BENCH_PEERS_H
 

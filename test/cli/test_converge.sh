@@ -141,5 +141,5 @@ usage_error time_that_is_no_number "found 'soon'" converge demo --seconds soon
 usage_error converge_knows_no_method "unknown option '--method'" converge demo --method exact
 usage_error converge_without_a_scene "SCENE is missing" converge
 usage_error unit_of_a_scene_file "its own units" converge demo --unit mm
-usage_error material_that_nothing_wears "the nearest is 'foil'" converge demo --material fool=1,0.2,0.3,1
+usage_error material_that_no_facet_has "the nearest is 'foil'" converge demo --material fool=1,0.2,0.3,1
 finish

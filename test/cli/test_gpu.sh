@@ -56,7 +56,7 @@ if ! grep -q llvmpipe "$scratch/driver"; then
     exit
 fi
 materials=$(awk -F, 'NR > 1 { print "--material", $1 "=" $2 "," $3 "," $4 "," $5 }' "$scratch/kit/materials.csv")
-# known SCENE: --material for those that the scene wears.
+# known SCENE: prints --material options for the materials that the scene uses.
 known() {
     for name in $(sed -n 's/^usemtl //p' "$scratch/kit/scenes/$1.obj" | sort -u); do
         printf '%s\n' "$materials" | grep -F -e "--material $name="

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 
-# Two objects and two materials in one model, beside two shapes that wear one of the same name.
+# Two objects and two materials in one model, beside two shapes with a material of the same name.
 {
     printf 'mtllib m.mtl\nv 0 0 3\nv 1 0 3\nv 0 1 3\nv 2 0 4\nv 3 0 4\nv 2 1 4.5\nv 2.5 2 5\n'
     printf 'o left\nusemtl red\nf 1 2 3\no right\nusemtl blue\nf 4 5 6\nusemtl red\nf 6 5 7\n'

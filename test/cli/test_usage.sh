@@ -60,7 +60,7 @@ usage_error image_of_another_format "expected FILE.png, found 'x.JPG'" run demo 
 usage_error json_and_csv_on_stdout "both want standard output" run demo --json --facets -
 usage_error one_file_for_two "the same file" run demo --image "$scratch/x" --facets "$scratch/x"
 
-usage_error material_that_nothing_wears "no material named 'fool'; the nearest is 'foil'" run demo --material fool=1,0.2,0.3,1
+usage_error material_that_no_facet_has "no material named 'fool'; the nearest is 'foil'" run demo --material fool=1,0.2,0.3,1
 usage_error material_of_three_numbers "A,B,s,m" run demo --material foil=1,0.2,0.3
 usage_error three_numbers_are_no_library_name "(four finite numbers), found '1,0.2,0.3'" run demo --material 1,0.2,0.3
 usage_error material_unknown_in_library "the nearest in the library is solar-cell" run demo --material foil=solar-cel

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A fuzz target without libFuzzer: it runs every seed, and MUTATIONS mutations of them from a fixed
    generator, the same on every machine. A target that finds a fault aborts. Seeds are kept packed:
-   one seed a line, in base64 (pack.sh writes them). With unpack it writes each seed to a file of
-   its own, as libFuzzer expects. usage: fuzz_NAME MUTATIONS SEEDS fuzz_NAME unpack
-   FOLDER SEEDS */
+   one seed a line, in base64 (pack.sh writes them). With `unpack` it writes each seed to a file of
+   its own, as libFuzzer expects.
+   usage: fuzz_NAME MUTATIONS SEEDS
+          fuzz_NAME unpack FOLDER SEEDS */
 #include "fuzz.h"
 #include "random.h"
 
@@ -22,7 +23,8 @@ static uint32_t replay_random(uint64_t *state)
     return (uint32_t)(random_xorshift(state) >> 32);
 }
 
-/* In room of its own size, for tools that watch the heap. */
+/* Runs the target on a copy in a heap block of exactly its size, so that memory checkers see any
+   access beyond it. */
 static void replay(const unsigned char *bytes, size_t size)
 {
     unsigned char *copy = malloc(size > 0 ? size : 1);
@@ -32,10 +34,11 @@ static void replay(const unsigned char *bytes, size_t size)
     free(copy);
 }
 
-/* A few bytes at once: values that counts fear, bits, digits, pieces moved or doubled, an end. */
+/* Changes a few bytes: to values that are boundary cases of counts and of numbers in text, by one
+   bit, to any value; or copies a piece to another place; or cuts the end off. */
 static void mutate(replay_seed *seed, uint64_t *state)
 {
-    static const unsigned char feared[8] = {0x00, 0x01, 0x7f, 0x80, 0xff, '-', '9', '\n'};
+    static const unsigned char boundary[8] = {0x00, 0x01, 0x7f, 0x80, 0xff, '-', '9', '\n'};
     for (uint32_t left = 1 + replay_random(state) % 4; left > 0 && seed->size > 0; left--) {
         uint32_t value = replay_random(state);
         size_t at = replay_random(state) % seed->size;
@@ -43,7 +46,7 @@ static void mutate(replay_seed *seed, uint64_t *state)
         size_t more = seed->size - (at > from ? at : from);
         switch (value % 5) {
         case 0:
-            seed->bytes[at] = feared[value >> 8 & 7];
+            seed->bytes[at] = boundary[value >> 8 & 7];
             break;
         case 1:
             seed->bytes[at] ^= (unsigned char)(1u << (value >> 8 & 7));

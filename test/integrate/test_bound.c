@@ -281,7 +281,7 @@ static void facet_in_more_pieces_than_fit_is_bounded(void **state)
 }
 
 /* Symptom: one facet of a satellite seen along +x, edge-on to within 1e-25, put half of sigma into
-   the bound: its tan^2 of 1e50 was known to three digits only, and the glint's peak stood for them.
+   the bound: its tan^2 of 1e50 was accurate to three digits only, and the bound took the glint's peak for it.
  */
 static void facet_at_grazing_light_does_not_spoil_the_bound(void **state)
 {

@@ -171,7 +171,7 @@ static double value_at(const lrcs_brdf *brdf, const double n[3])
     return brdf->A / pow(c, 5) * exp(-tan2 / (brdf->s * brdf->s)) + brdf->B * pow(c, brdf->m + 1);
 }
 
-static void normals_that_face_away_see_nothing(void **state)
+static void normals_that_face_away_reflect_nothing(void **state)
 {
     (void)state;
     const double normal[3][3] = {{1, 0, -0.1}, {0, 1, -0.5}, {1, 1, -1e-12}};
@@ -181,8 +181,9 @@ static void normals_that_face_away_see_nothing(void **state)
     check_same(sum.estimate + sum.rounding, 0);
 }
 
-/* By the slip, they may see something all the same, or more than they seem to. */
-static void normals_all_but_in_the_plane_may_see_what_the_slip_lets_them(void **state)
+/* Normals within their error of the plane across the line of sight may reflect, or reflect more than
+   as computed: that is within the rounding bound. */
+static void nearly_grazing_normals_reflect_within_the_rounding_bound(void **state)
 {
     (void)state;
     lrcs_brdf brdf = {0, 1, 0.2, 0};
@@ -196,8 +197,8 @@ static void normals_all_but_in_the_plane_may_see_what_the_slip_lets_them(void **
     }
 }
 
-/* Where no steps are left, what was not looked at closer is within a bound, not an estimate; also
-   where the normals are as far off as is said. */
+/* Where no steps are left, the parts that were not subdivided any further count in the bound and not
+   in the estimate; also where the normals have the error that position_err states. */
 static void without_steps_what_is_left_is_within_its_bound(void **state)
 {
     (void)state;
@@ -296,8 +297,8 @@ int main(void)
         cmocka_unit_test(beside_others_the_error_is_larger_and_within_its_estimate),
         cmocka_unit_test(a_dark_edge_is_within_its_estimate),
         cmocka_unit_test(a_flat_triangle_is_its_value_to_rounding),
-        cmocka_unit_test(normals_that_face_away_see_nothing),
-        cmocka_unit_test(normals_all_but_in_the_plane_may_see_what_the_slip_lets_them),
+        cmocka_unit_test(normals_that_face_away_reflect_nothing),
+        cmocka_unit_test(nearly_grazing_normals_reflect_within_the_rounding_bound),
         cmocka_unit_test(without_steps_what_is_left_is_within_its_bound),
         cmocka_unit_test(absurd_slopes_end_in_finite_work_and_an_estimate_that_tells),
         cmocka_unit_test(the_most_is_above_every_value_and_near_the_largest),

@@ -185,8 +185,8 @@ static void needles_of_some_ulps_show_their_exact_shares(void **state)
     check_case("skins 1:4284");
 }
 
-/* Facets that pierce each other at angles of 1e-19 and less: where they do was not told to
-   double-double, and all of both was in doubt. */
+/* Facets that intersect at angles of 1e-19 and less. Symptom: double-double arithmetic could not
+   locate the line of intersection, and all of both facets was undecided. */
 static void planes_all_but_parallel_meet_where_they_do(void **state)
 {
     (void)state;
@@ -205,9 +205,9 @@ static void long_slivers_show_their_exact_shares(void **state)
     check_case("lattice 4:606");
 }
 
-/* Three sides of three facets lie in one line, but for some ulps: the strips between them took all
-   the cells that the facet may fall into, and the rest of it stayed in doubt. */
-static void strips_that_nothing_tells_leave_cells_for_the_rest(void **state)
+/* Sides of three facets lie in one line to within some ulps. Symptom: the strips between them used
+   up all the cells that a facet may be divided into, and the rest of it stayed undecided. */
+static void undecided_strips_leave_cells_for_the_rest(void **state)
 {
     (void)state;
     check_case("lattice 5:3187");
@@ -265,7 +265,7 @@ int main(void)
         cmocka_unit_test(needles_of_some_ulps_show_their_exact_shares),
         cmocka_unit_test(planes_all_but_parallel_meet_where_they_do),
         cmocka_unit_test(long_slivers_show_their_exact_shares),
-        cmocka_unit_test(strips_that_nothing_tells_leave_cells_for_the_rest),
+        cmocka_unit_test(undecided_strips_leave_cells_for_the_rest),
         cmocka_unit_test(far_vertices_blur_no_facet_but_their_own),
         cmocka_unit_test(a_facet_seen_edge_on_ends_its_fan),
         cmocka_unit_test(fins_of_a_plate_seen_edge_on_show_their_exact_shares),

@@ -106,13 +106,13 @@ static void check_mean(int method)
 {
     const lrcs_brdf *brdf = &scene.material[0].brdf;
     long double surface = 0;
-    long double doubt = 0;
+    long double difference = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         long double n[3];
         facet_normal(f, n);
         long double length = sqrtl(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         surface += 0.5L * length;
-        doubt += 0.5L * length * fabsl(rule_on_facet(brdf, n, length) - mean_of_facet(brdf));
+        difference += 0.5L * length * fabsl(rule_on_facet(brdf, n, length) - mean_of_facet(brdf));
     }
     lrcs_work work;
     const lrcs_prepared *p = scene_prepare(&scene, &work);
@@ -125,9 +125,9 @@ static void check_mean(int method)
         bound += sphere.weight[i / RULE_AROUND] * r.bound_m2;
     }
     double want = (double)(surface * mean_of_facet(brdf));
-    check_most((double)doubt, RULE_OFF * want);
+    check_most((double)difference, RULE_OFF * want);
     check_most(bound, 1e-9 * want);
-    check_abs(mean, want, (double)doubt + bound + 1e-14 * want);
+    check_abs(mean, want, (double)difference + bound + 1e-14 * want);
 }
 
 static const lrcs_brdf laws[] = {{1, 0.25, 0.5, 2}, {0, 0.25, 0.2, 1}, {1, 0, 0.6, 0}};

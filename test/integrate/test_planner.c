@@ -24,13 +24,13 @@ static const planner_case cases[] = {
 #define CASES  (sizeof cases / sizeof *cases)
 #define EXTENT 3.0 /* coordinates lie within -0.5 .. 2 */
 
-/* What the two bodies wear. */
+/* The materials of the two bodies. */
 static const struct {
     double A[2], B[2];
     unsigned char two_sided;
-} worn[] = {{{1, 1}, {0.25, 0.25}, 0}, {{1, 1}, {0.25, 0.25}, 1}, {{0, 1}, {0.25, 0.25}, 0},
-            {{1, 0}, {0.25, 0.25}, 1}, {{1, 1}, {0, 0.25}, 1},    {{1, 0}, {0, 0.25}, 0}};
-#define WORN (sizeof worn / sizeof *worn)
+} surfaces[] = {{{1, 1}, {0.25, 0.25}, 0}, {{1, 1}, {0.25, 0.25}, 1}, {{0, 1}, {0.25, 0.25}, 0},
+                {{1, 0}, {0.25, 0.25}, 1}, {{1, 1}, {0, 0.25}, 1},    {{1, 0}, {0, 0.25}, 0}};
+#define SURFACES (sizeof surfaces / sizeof *surfaces)
 
 static test_scene scene;
 
@@ -39,8 +39,8 @@ static void scene_of(const planner_case *c, size_t w)
     scene_start(&scene);
     scene_material(&scene, 0, 0, 0.5, 0.5);
     for (uint32_t i = 0; i < 2; i++) {
-        scene.material[i].brdf = (lrcs_brdf){worn[w].A[i], worn[w].B[i], 0.5, 0.5};
-        scene.material[i].two_sided = worn[w].two_sided;
+        scene.material[i].brdf = (lrcs_brdf){surfaces[w].A[i], surfaces[w].B[i], 0.5, 0.5};
+        scene.material[i].two_sided = surfaces[w].two_sided;
     }
     for (uint32_t v = 0; v < c->vertices; v++) {
         scene_vertex(&scene, c->vertex[v].x[0], c->vertex[v].x[1], c->vertex[v].x[2]);
@@ -53,7 +53,7 @@ static void scene_of(const planner_case *c, size_t w)
 
 static int reflects(const planner_case *c, size_t w, uint32_t f)
 {
-    return c->cos2[f] > 0 || (c->cos2[f] < 0 && worn[w].two_sided);
+    return c->cos2[f] > 0 || (c->cos2[f] < 0 && surfaces[w].two_sided);
 }
 
 /* Eq. 2 over the exact areas: glint and diffuse part. */
@@ -108,7 +108,7 @@ static void planned_answers_hold_the_truth(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
-        for (size_t w = 0; w < WORN; w++) {
+        for (size_t w = 0; w < SURFACES; w++) {
             scene_of(&cases[i], w);
             lrcs_result r = run_of(&cases[i], lrcs_run_options_default());
             check_truth(&cases[i], w, &r);
@@ -122,7 +122,7 @@ static void what_the_planner_leaves_out_changes_nothing(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
-        for (size_t w = 0; w < WORN; w++) {
+        for (size_t w = 0; w < SURFACES; w++) {
             lrcs_run_options options = lrcs_run_options_default();
             scene_of(&cases[i], w);
             const lrcs_result plain = run_of(&cases[i], options);
@@ -172,7 +172,7 @@ static void no_effect_is_off_that_matters(void **state)
     uint32_t mattered[LRCS_EFFECTS] = {0};
     uint32_t spared[LRCS_EFFECTS] = {0};
     for (size_t i = 0; i < CASES; i++) {
-        for (size_t w = 0; w < WORN; w++) {
+        for (size_t w = 0; w < SURFACES; w++) {
             scene_of(&cases[i], w);
             lrcs_result r = run_of(&cases[i], lrcs_run_options_default());
             for (int e = 0; e < LRCS_EFFECTS; e++) {
@@ -199,7 +199,7 @@ static void effects_proved_not_to_matter_are_off(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
-        for (size_t w = 0; w < WORN; w++) {
+        for (size_t w = 0; w < SURFACES; w++) {
             scene_of(&cases[i], w);
             lrcs_result r = run_of(&cases[i], lrcs_run_options_default());
             assert_false(cases[i].off & 1 && r.effect[LRCS_EFFECT_SELF_SHADOWING].on);
@@ -209,7 +209,7 @@ static void effects_proved_not_to_matter_are_off(void **state)
     }
 }
 
-/* A glint that is worn, but only by what is hidden: the effect is off in that pose, and on where a
+/* A material with a glint, but only on facets that are hidden: the effect is off in that pose, and on where a
    sliver an ulp wide shows it. */
 static void a_glint_is_off_where_nothing_seen_has_it(void **state)
 {

@@ -36,8 +36,8 @@ static void nothing_has_no_extent_and_no_triangle_all_of_it(void **state)
     check_same(lrcsi_slice_extent(&slice, corner_o, corner_p, corner_q), 0);
 }
 
-/* What touches a half-space from outside at a corner, or along a side, has no share in it. */
-static void a_touch_is_no_share(void **state)
+/* A triangle outside a half-space that touches it in a corner or along a side has no area in it. */
+static void contact_without_overlap_has_no_area(void **state)
 {
     (void)state;
     static const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -55,7 +55,7 @@ static void a_touch_is_no_share(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_touch_is_no_share),
+        cmocka_unit_test(contact_without_overlap_has_no_area),
         cmocka_unit_test(an_extent_is_the_interval_of_heights),
         cmocka_unit_test(nothing_has_no_extent_and_no_triangle_all_of_it),
     };

@@ -401,7 +401,7 @@ static void check_zones(const lrcs_shape *shape, uint32_t around, uint32_t along
     check_most(seen.area_err, c.area_err * 1.002);
     check_most(seen.bias, c.bias * 1.002 + 1e-4 * h * h);
     check_most(seen.rms_turn, c.rms_turn * 1.0005);
-    check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
+    check_most(c.turn, seen.turn * 1.1); /* the bounds are not far too wide */
     check_most(c.area_err, seen.area_err * 1.1 + 1e-3 * h * h);
     check_most(c.rms_turn, seen.rms_turn * 1.1);
 }
@@ -511,7 +511,7 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
     check_most(seen.radial, reach.radial);
     check_most(seen.axial, reach.axial);
     check_most(seen.tangential, reach.tangential);
-    if (along == 1 || along > 20) { /* and they are not idle, unless zones are coarse */
+    if (along == 1 || along > 20) { /* the bounds are not far too wide, unless zones are coarse */
         check_most(reach.all, 4.0 * seen.all + 1e-12);
         check_most(reach.radial, 2.0 * seen.radial + 1e-12);
     }
@@ -574,7 +574,8 @@ static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t alo
         check_most(mean, n.across_mean * (1.0 + 1e-3)); /* the quadrature's error */
         check_most(0.5 * (most - least), n.along_err);
         check_most(hypot(swell * cos(h) * (lower - upper), high[2] - low[2]), n.length);
-        if (along > 20 && !apex && shape->kind == LRCS_SHAPE_DOME) { /* and they are not idle */
+        if (along > 20 && !apex &&
+            shape->kind == LRCS_SHAPE_DOME) { /* the bounds are not far too wide */
             check_most(n.across_err, 8.0 * across + 1e-12);
             check_most(n.along_err, 4.0 * (most - least) + 1e-12);
         }
@@ -746,7 +747,7 @@ static void check_hausdorff(const lrcs_shape *shape, uint32_t around, uint32_t a
     }
     check_most(surface, reach.surface);
     check_most(solid, reach.solid);
-    check_most(reach.surface, 3.0 * surface + 1e-12); /* and they are not idle */
+    check_most(reach.surface, 3.0 * surface + 1e-12); /* the bounds are not far too wide */
     check_most(reach.solid, 3.0 * solid + 1e-12);
     check_most(reach.solid, reach.surface);
 }

@@ -61,7 +61,8 @@ static void facet_vector(const lrcs_mesh *mesh, uint32_t i, double out[3])
     cross(e[0], e[1], out);
 }
 
-/* sigma of a convex mesh seen alone, and the sum of the stray bounds of its curved facets. */
+/* sigma of a convex mesh that is alone in its scene, and the sum of the deviation bounds of its
+   curved facets. */
 static void facet_sum(const lrcs_mesh *mesh, const lrcs_patch_bounds *bounds, const lrcs_brdf *brdf,
                       const double s_hat[3], double *sigma, double *bound)
 {

@@ -379,7 +379,7 @@ static void a_recipe_takes_no_more_than_its_need(void **state)
             void *area;
             lrcs_recipe recipe;
             read_text(text, step * times, &area, &recipe,
-                      NULL); /* asserts: not for want of memory */
+                      NULL); /* asserts that memory is not the cause */
             free(area);
             free(text);
         }

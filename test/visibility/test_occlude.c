@@ -270,8 +270,9 @@ static void front_skin_hides_a_back_in_its_plane(void **state)
     check_same(share_left(up, &error), 1);
 }
 
-/* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and its slip is charged. */
-static void shallow_cuts_own_up_to_their_position_err(void **state)
+/* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and the error states its position
+   error. */
+static void shallow_cuts_state_their_position_err(void **state)
 {
     (void)state;
     for (int power = 1; power <= 50; power += 7) {
@@ -435,7 +436,7 @@ int main(void)
         cmocka_unit_test(order_follows_from_corners_on_sides_of_a_needle_too),
         cmocka_unit_test(a_fin_through_a_plate_when_both_are_seen_edge_on),
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
-        cmocka_unit_test(shallow_cuts_own_up_to_their_position_err),
+        cmocka_unit_test(shallow_cuts_state_their_position_err),
         cmocka_unit_test(needles_turned_over_by_rounding_hide_nothing),
         cmocka_unit_test(a_needle_shows_its_share_in_pieces),
         cmocka_unit_test(a_fan_costs_pieces_along_its_rim_only),

@@ -211,7 +211,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     double err = 1e-5 * o.k; /* of the measured exits */
     check_most(gain, sum.gain * 1.01 + err);
     check_most(loss, sum.loss * 1.01 + err);
-    if (isfinite(sum.gain)) { /* and they are not idle */
+    if (isfinite(sum.gain)) { /* the bounds are not far too wide */
         check_most(fmax(sum.gain, sum.loss), 4 * fmax(gain, loss) + err);
     }
 }

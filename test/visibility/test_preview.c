@@ -25,10 +25,11 @@ static lrcsi_view view_from(int i)
     return view;
 }
 
-/* Shares of fewer samples are corrected together. */
+/* The areas of facets with fewer samples are corrected together. */
 #define FEW 16
 
-/* Two standard deviations of what a pixel errs in which a border passes. */
+/* Two standard deviations of the error in a pixel that an outline crosses, in pixels: 1/12 is the
+   variance of a uniform distribution. */
 #define LIKELY sqrt(4.0 / 12)
 
 static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted)
@@ -135,8 +136,9 @@ static void facets_without_samples_show_what_those_beside_them_show(void **state
     check_abs(sum, (double)SCENE_PI, 0.03 * (double)SCENE_PI);
 }
 
-/* The areas of all that reflects, but for what samples along its outline err by chance. */
-static void facets_with_few_samples_show_together_what_the_samples_count(void **state)
+/* Compares the sum of the areas of all facets that reflect with the number of their samples, to
+   within the likely error of samples along their outline. */
+static void areas_of_facets_with_few_samples_add_up_to_the_sample_count(void **state)
 {
     (void)state;
     unsigned runs = 0;
@@ -182,7 +184,7 @@ static void facets_with_few_samples_show_together_what_the_samples_count(void **
     assert_true(runs == 11 * (DIRECTIONS - 2));
 }
 
-/* But for rounding, whatever the order of facets. */
+/* To within rounding. */
 static void areas_do_not_depend_on_the_order_of_facets(void **state)
 {
     (void)state;
@@ -274,7 +276,7 @@ int main(void)
         cmocka_unit_test(shares_are_those_of_the_raster),
         cmocka_unit_test(shares_on_a_crossing_and_of_steep_facets_are_those_of_the_raster),
         cmocka_unit_test(facets_without_samples_show_what_those_beside_them_show),
-        cmocka_unit_test(facets_with_few_samples_show_together_what_the_samples_count),
+        cmocka_unit_test(areas_of_facets_with_few_samples_add_up_to_the_sample_count),
         cmocka_unit_test(areas_do_not_depend_on_the_order_of_facets),
         cmocka_unit_test(the_likely_error_is_near_the_error),
         cmocka_unit_test(memory_below_the_need_is_refused),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs plot: draws the output of sweeps, range profiles and comparisons of lrcs converge again
    without computing: one file as its command draws it, or the curves of several sweeps together.
-   This file decides which files fit together; the host and plot/table.c draw. */
+   This file decides which files fit together; the host layer and cli/plot/table.c draw. */
 #include "cli/plot/table.h"
 #include "cli/sweep/sweep.h"
 

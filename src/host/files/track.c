@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Reads an attitude time series: each row has a time, a quaternion or a direction, and the angles
    of joints. This file decides which column is which, by the names in the first line or by their
-   number; sweep/plan.c makes poses from them. */
+   number; host/sweep/plan.c makes poses from them. */
 #include <lrcs/table.h>
 #include <lrcs/track.h>
 
