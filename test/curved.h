@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Models with normals for tests: OBJ text or 3DS bytes read, placed, dressed in one material and
-   run; and a cylinder in each form that says that it is round. */
+/* Models with normals for tests: OBJ text or 3DS bytes read, placed, with one material, and run;
+   and a cylinder in each form that says that it is round. */
 #ifndef TEST_CURVED_H
 #define TEST_CURVED_H
 
@@ -59,7 +59,7 @@ static inline curved_case curved_obj(const char *text)
     return c;
 }
 
-/* Builds and prepares in exactly the memory that is said to do. */
+/* Builds and prepares in exactly as much memory as the library states. */
 static inline void curved_build(curved_case *c, int normals)
 {
     static lrcs_recipe_part part;
@@ -121,7 +121,7 @@ static inline lrcs_result curved_run(curved_case *c, const double direction[3], 
     return result;
 }
 
-/* A line more of a text. */
+/* Appends a line to a text. */
 __attribute__((format(printf, 2, 3))) static inline void curved_line(char *text, const char *format,
                                                                      ...)
 {

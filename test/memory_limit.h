@@ -25,7 +25,7 @@ typedef struct memory_case {
 #define MEMORY_CASE(name, need, call, output, stays)                                               \
     (&(const memory_case){name, need, call, &(output), sizeof(output), stays, NULL})
 
-/* One call in so many bytes, with a canary behind them. */
+/* One call with so many bytes, and a canary behind them. */
 static int memory_limit_at(const memory_case *s, unsigned char *memory, size_t size)
 {
     unsigned char *before = malloc(s->output_size);
@@ -51,8 +51,8 @@ static int memory_limit_at(const memory_case *s, unsigned char *memory, size_t s
     return status;
 }
 
-/* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
-   every 127th between. Once served, it is served by every larger area. */
+/* Tries every size; of those that need much, the first and last 1024 sizes and every 127th between.
+   If a size suffices, so does every larger one. */
 static void check_memory_limit(const memory_case *s)
 {
     unsigned char *memory = malloc(s->need + MEMORY_CANARY);

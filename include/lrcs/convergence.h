@@ -14,7 +14,7 @@
 enum lrcs_host_convergence_kind {
     LRCS_HOST_CONVERGENCE_KIND_ZBUFFER, /* its resolution */
     LRCS_HOST_CONVERGENCE_KIND_MESH,    /* how finely shapes are tessellated */
-    LRCS_HOST_CONVERGENCE_KIND_PREVIEW, /* the tolerance, met by an estimate: LRCS_ACCEPT_ESTIMATE */
+    LRCS_HOST_CONVERGENCE_KIND_PREVIEW, /* the tolerance, by LRCS_ACCEPT_ESTIMATE */
     LRCS_HOST_CONVERGENCE_KIND_FACET,   /* no self-shadowing */
     LRCS_HOST_CONVERGENCE_KIND_EXACT,
     LRCS_HOST_CONVERGENCE_KIND_CLOSED, /* no facets: closed forms of shapes that nothing hides */

@@ -26,8 +26,8 @@ typedef struct lrcs_host_kit_size {
    Returned: size unless NULL.
    Status: LRCS_OK; LRCS_E_ARGUMENT (options); LRCS_E_SYSTEM (a file, memory; or the folder holds
    files and no kit); LRCS_E_LIMIT (a path of 4096 bytes or more); LRCS_E_UNSUPPORTED (a case cannot
-   be clipped exactly, because memory does not suffice); as lrcs_host_scene_read, lrcs_host_scene_prepare and
-   lrcs_host_scene_run. */
+   be clipped exactly, because memory does not suffice); as lrcs_host_scene_read,
+   lrcs_host_scene_prepare and lrcs_host_scene_run. */
 int lrcs_host_kit_write(const char *folder, const lrcs_host_kit_options *options,
                         lrcs_host_kit_size *size, lrcs_host_error *error);
 

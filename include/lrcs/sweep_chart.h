@@ -25,7 +25,7 @@ typedef struct lrcs_host_sweep_chart {
     const char *title;     /* the scene's, or the name of its file */
     const char *name;      /* in the legend, of all curves, or NULL */
     const char *accept;    /* lrcs_accept_text, or NULL */
-    int materials_assumed; /* 1 if some are illustrative or assumed: no bound includes their error */
+    int materials_assumed; /* 1 if some are illustrative or assumed: bounds exclude their error */
     int dbsm, polar, mollweide; /* decibels; curves about a pole; a map in that projection */
     /* chosen */
     lrcs_host_sweep_axis x, y; /* y: a single value if only one quantity varies */

@@ -53,7 +53,7 @@ static void case_make(const emulate_case *c)
     scene.scene.material_count = c->facets;
 }
 
-/* What stands in the item buffer, from the bottom row on, as letters. */
+/* The item buffer as text: a letter for each pixel, from the bottom row up. */
 static void owners_write(uint32_t size, char *text)
 {
     for (uint32_t y = 0; y < size; y++) {
@@ -65,7 +65,8 @@ static void owners_write(uint32_t size, char *text)
     *text = '\0';
 }
 
-/* Two libraries' exp and pow differ by some ulp of doubles; the bits of floats they leave. */
+/* exp and pow of two math libraries may differ by some ulp of doubles; results in floats have the
+   same bits. */
 #define LIBM_OFF 0x1p-50
 
 static void another_implementation_gives_the_same_bits(void **state)
@@ -153,8 +154,8 @@ static void a_square_fills_its_window(void **state)
     }
 }
 
-/* The right triangle under the diagonal of an 8 x 8 window: 28 centres below it; the 8 on it belong
-   to whom they lie on a left edge. */
+/* The right triangle below the diagonal of an 8 x 8 window: 28 pixel centres are below the
+   diagonal; the 8 on it belong to the facet of which it is a left edge. */
 static void the_diagonal_belongs_to_the_facet_on_its_right(void **state)
 {
     (void)state;
@@ -234,8 +235,8 @@ static void skins_closer_than_a_step_of_depth_fight(void **state)
     }
 }
 
-/* The sphere's mesh alone has no hidden front: what is left is sampling, here some 1e-4, and floats
-   add a hundredth of it. */
+/* No front of a sphere's mesh is hidden if it is alone: its error is that of sampling, here some
+   1e-4, and floats add a hundredth of that. */
 static void floats_cost_a_convex_body_little(void **state)
 {
     (void)state;
@@ -250,8 +251,8 @@ static void floats_cost_a_convex_body_little(void **state)
     assert_true(flat != deep);
 }
 
-/* 512 x 512 equal pixels: the larger the sum grows, the more of each is rounded off, and for long
-   stretches the same way. */
+/* 512 x 512 equal pixels: the larger the sum grows, the more of each pixel is lost to rounding, and
+   over long stretches these errors have the same sign. */
 static void a_running_sum_of_floats_loses_what_pairs_keep(void **state)
 {
     (void)state;
@@ -266,7 +267,8 @@ static void a_running_sum_of_floats_loses_what_pairs_keep(void **state)
     check_rel(e.running_m2, 1.0, 512 * 512 * 0x1p-53);
 }
 
-/* Summed over directions the error falls as 1 / N: by 4 and 4 more, of which half is asked. */
+/* Summed over directions the error falls as 1 / N, which is by 4 from each size to the next; the
+   test requires half of that. */
 static void sampling_converges_as_one_over_n(void **state)
 {
     (void)state;
@@ -288,7 +290,7 @@ static void sampling_converges_as_one_over_n(void **state)
     check_most(error[2], error[1] / 2);
 }
 
-/* Equal depths: the first drawn stays, where the reference lets the front win. */
+/* At equal depths the facet drawn first stays; in the reference a front takes precedence. */
 static void of_equal_depths_the_first_drawn_wins(void **state)
 {
     (void)state;
@@ -320,8 +322,8 @@ static void sigma_scales_by_the_square_beyond_the_range_of_floats(void **state)
     }
 }
 
-/* Needles along the line of sight, slivers, a point of light far away: finite, whatever they give.
- */
+/* Needles along the line of sight, slivers, a tiny bright facet far away: all results are
+   finite. */
 static void odd_scenes_give_finite_answers(void **state)
 {
     (void)state;
@@ -347,8 +349,9 @@ static void odd_scenes_give_finite_answers(void **state)
     }
 }
 
-/* Amplitudes beyond floats are refused where they are seen; slopes and exponents beyond them are
-   their limits: no glint but at the normal, all glint, no diffuse term but at the normal. */
+/* Amplitudes beyond floats are refused where they are seen; slopes and exponents beyond that
+   range act as their limits: no glint except at the normal, all glint, no diffuse term but at
+   the normal. */
 static void materials_beyond_floats_are_refused_or_limits(void **state)
 {
     (void)state;
@@ -467,7 +470,7 @@ static void curved_normals_are_not_emulated(void **state)
     curved_free(&c);
 }
 
-/* A pose of which one number is none; 0 to 2 are the direction's, from 3 on R's. */
+/* A pose with one invalid number: 0 to 2 of the direction, from 3 on of R. */
 static void pose_that_is_none_is_refused(void **state)
 {
     (void)state;

@@ -130,8 +130,8 @@ static void readings_without_noise_give_back_their_material(void **state)
     }
 }
 
-/* Of `seeds` series so many have limits about the truth; 19 in 20 are meant, and five standard
-   deviations of the binomial are allowed. */
+/* How many of `seeds` series have limits that enclose the truth: 19 in 20 are expected, to within
+   five standard deviations of the binomial distribution. */
 static void coverage_check(const series *one, uint32_t seeds)
 {
     const double truth[] = {one->brdf.A, one->brdf.B, one->brdf.s, one->brdf.m};
@@ -166,7 +166,7 @@ static void limits_hold_the_truth_where_errors_are_given(void **state)
     coverage_check(&(series){{0.6, 0.05, 0.15, 1.0}, 0, 70, 0.04, 0.0, 31, LRCS_FIT_GIVEN}, 100);
 }
 
-/* A plain t would find a glint in a fifth of them. */
+/* A plain t test would find a glint in a fifth of them. */
 static void noise_is_seldom_taken_for_a_glint(void **state)
 {
     (void)state;
@@ -519,7 +519,7 @@ static void readings_of_one_value_at_the_normal_leave_both_parts_open(void **sta
     }
 }
 
-/* So far from the normal the steepest falls of the search are nothing at any reading. */
+/* So far from the normal, the narrowest lobes of the search range are 0 at every reading. */
 static void readings_of_nothing_beside_outliers_have_finite_errors(void **state)
 {
     (void)state;

@@ -37,7 +37,7 @@ static double read_whole(const char *text)
     return value;
 }
 
-/* How many bytes of `text` are read as a number; -1 where none stands there. */
+/* How many bytes of `text` are read as a number; -1 if it does not begin with one. */
 static int length_read(const char *text)
 {
     double value = 42.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Exponential and logarithm against mpmath, within the errors declared with them; their ends; and
-   that lanes give what their proof says. */
+/* Exponential and logarithm against mpmath, within the errors declared with them; the ends of their
+   domains; and lanes within the error that is proved for them. */
 #include "base/elementary.h"
 
 #include "check.h"

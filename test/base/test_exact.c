@@ -144,7 +144,7 @@ static void far_from_the_origin_agrees_with_integers(void **state)
     }
 }
 
-/* To double-double, or the dot to a double, however much cancels. */
+/* Accurate to double-double, and the dot product to a double, however much cancels. */
 static void values_agree_with_rational_arithmetic(void **state)
 {
     (void)state;

@@ -64,7 +64,7 @@ static void an_index_of_nothing_finds_nothing(void **state)
     assert_int_equal(lrcsi_index_find(&names, 0, "x", 1), LRCS_NONE);
 }
 
-/* Full to its promised count, every name is still found, and the need was enough. */
+/* With as many names as it was made for, every name is found, and the memory stated was enough. */
 static void a_full_index_finds_every_name(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Compensated sums, one and in lanes, against sums that integers know. */
+/* Compensated sums, one and in lanes, against exact sums of integers. */
 #include "base/sum.h"
 
 #include "check.h"
@@ -12,7 +12,7 @@ static double term(int i)
 
 #define TERMS (8 * LRCSI_LANES)
 
-/* Of what is left where the large ones cancel. */
+/* The sum of the small terms alone, which remains where the large ones cancel. */
 static double small_ones(void)
 {
     double sum = 0.0;

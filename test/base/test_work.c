@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The bump arena: aligned, checked, and honest about what it lacked. */
+/* The bump arena: alignment, checked sizes, and a peak that says how much was missing. */
 #include "base/work.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ static void blocks_asked_cleared_are_zero(void **state)
     }
 }
 
-/* Its address is nobody else's; there is nothing to clear. */
+/* It has an address of its own, and nothing is cleared. */
 static void a_block_of_no_bytes_is_a_block(void **state)
 {
     (void)state;

@@ -47,7 +47,7 @@ typedef struct bench_case {
     lrcs_run_options options; /* of the column under measurement */
 } bench_case;
 
-/* What of a pose is measured. */
+/* The parts of a pose that are measured. */
 typedef struct bench_column {
     const char *name;
     int method;
@@ -140,7 +140,7 @@ static lrcs_pose case_pose(const bench_case *c, int direction)
     return pose;
 }
 
-/* A pose in an area that grows until it serves. */
+/* A pose in a work area that grows until it suffices. */
 static int pose_run(const bench_case *c, int direction, lrcs_work *work, lrcs_result *result)
 {
     const lrcs_prepared *prepared = c->scene.prepared;
@@ -157,8 +157,8 @@ static int pose_run(const bench_case *c, int direction, lrcs_work *work, lrcs_re
     }
 }
 
-/* The time of a pose in a work area that nothing has been in before: fresh pages of the system, as
-   malloc may hand out used ones. 0 where it failed. */
+/* The time of a pose in a work area that has never been used: fresh pages from the system, since
+   malloc may return used ones. 0 if the pose failed. */
 static double first_measure(const bench_case *c, int direction, size_t size)
 {
     int zero = open("/dev/zero", O_RDWR);
@@ -280,7 +280,7 @@ static void measure_peers(const bench_case *c)
     remove(path);
 }
 
-/* A scene that stands in a file, in the order of the table's columns. */
+/* A scene from a file, measured in the order of the table's columns. */
 static void measure_file(bench_job *job, const char *name, const char *path, const double *view)
 {
     bench_case c = {.job = job, .name = name, .view = view};
@@ -319,7 +319,7 @@ static int wanted(const bench_job *job, const char *name)
     return !job->only || strstr(name, job->only);
 }
 
-/* A scene made here, by way of a file, as any model comes. */
+/* A generated scene: written to a file first, and then read as any model. */
 static void measure_made(bench_job *job, const char *name, bench_scene *made)
 {
     char path[1024];
@@ -345,8 +345,8 @@ static void measure_satellites(bench_job *job)
     }
 }
 
-/* What the satellites do not show: a body proved convex, modules that run into one another, the
-   same with every face stored twice, a scale that one vertex spoils. */
+/* Cases that the satellites do not cover: a body proved convex, modules that intersect, the same
+   with every face stored twice, one vertex so far away that it sets the scale. */
 static void measure_special(bench_job *job)
 {
     int tiny = job->extent == EXTENT_TINY;

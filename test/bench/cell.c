@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Measurements in child processes: what takes too long is ended, and the benchmark goes on. It does
-   not decide what is measured. */
+/* Measurements in child processes: one that takes too long is ended, and the benchmark goes on.
+   This file does not decide what is measured. */
 #include "bench/cell.h"
 
 #include <poll.h>

@@ -5,7 +5,7 @@
 
 #include "bench/measure.h"
 
-/* One measurement: times in ms, and what a pose answered; 0 for what there is none of. */
+/* One measurement: times in ms, and the answer of a pose; 0 for each that does not apply. */
 typedef struct bench_sample {
     double cpu, wall;
     double bound, estimate; /* of a pose, over its sigma */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How the benchmarks measure: times of the processor, which on one thread are those of the wall
-   where nobody else wants it, and their quantiles. It does not decide what is measured. */
+/* How the benchmarks measure: processor times, which on one thread equal wall-clock times if no
+   other process runs, and their quantiles. This file does not decide what is measured. */
 #include "bench/measure.h"
 
 #include <math.h>
@@ -89,7 +89,7 @@ lrcs_pose bench_pose(int direction)
 
 /* ---- the machine ---- */
 
-/* What follows "key :" in a file of such lines, or nothing. */
+/* The text after "key :" in a file of such lines; empty if there is none. */
 static void value_of(const char *path, const char *key, char *value, size_t size)
 {
     char line[512];

@@ -7,19 +7,20 @@
 
 #include <stdio.h>
 
-/* Directions a measurement is spread over, and times it may be taken at most. */
+/* The number of directions of a measurement, and how often it is repeated at most. */
 enum { BENCH_DIRECTIONS = 9, BENCH_TIMES = 27 };
 
-/* Times taken of one thing, in ms. */
+/* Repeated measurements of one time, in ms. */
 typedef struct bench_times {
     double ms[BENCH_TIMES];
     int count;
 } bench_times;
 
-/* A share of sorted times lies below: 0.5 for the median. 0 where nothing was measured. */
+/* The time below which this share of the measurements lies: 0.5 for the median. 0 if there are
+   none. */
 double bench_quantile(bench_times *times, double share);
 
-/* The processor's time of this process so far, and the time of the clock on the wall. */
+/* The processor time of this process so far, and the wall-clock time. */
 double bench_now_ms(void);
 double bench_wall_ms(void);
 void bench_add(bench_times *times, double ms);
@@ -27,7 +28,7 @@ void bench_add(bench_times *times, double ms);
 /* Ends the program unless the status is LRCS_OK. */
 void bench_check(int status, const char *what);
 
-/* Memory, or the end of the program. */
+/* Allocates memory; ends the program if there is none. */
 void *bench_memory(size_t size);
 
 /* Pose number `direction` of BENCH_DIRECTIONS, spread evenly over the sphere, none along an axis;

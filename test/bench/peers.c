@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs the peers' programs and reads what they print: a line a pose, "azimuth elevation sigma
-   seconds", and at the end how long they took to build what they build once. */
+/* Runs the programs of peers.h and reads what they print: a line for each pose, "azimuth elevation
+   sigma seconds", and at the end the time for what they build once for all poses. */
 #include "bench/peers.h"
 
 #include <string.h>

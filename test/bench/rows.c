@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Measured rows as Markdown tables, as CSV and as a chart. It decides how numbers are shown, and
-   none of them. */
+/* Measured rows as Markdown tables, as CSV and as a chart. This file decides how numbers are shown,
+   and computes none. */
 #include "bench/rows.h"
 
 #include <lrcs/host.h>
@@ -86,7 +86,7 @@ static const row_ratio ratios[] = {{"prepare", "Embree tree"},
                                    {"estimate 1e-3", "llvmpipe 1024"}};
 enum { RATIOS = sizeof ratios / sizeof ratios[0] };
 
-/* Times on the wall, both of this run; 0: one is missing, or not all of it was measured. */
+/* The ratio of two wall-clock times of this run; 0 if one is missing or incomplete. */
 static double ratio_of(const bench_table *table, uint32_t first, const row_ratio *ratio)
 {
     const bench_row *row = row_find(table, first, ratio->what);
@@ -96,7 +96,7 @@ static double ratio_of(const bench_table *table, uint32_t first, const row_ratio
 
 /* ---- Markdown ---- */
 
-/* "35.1", "> 20 s" where no sample came in time, "failed", or "-" where nothing was asked. */
+/* "35.1", "> 20 s" if no sample came in time, "failed", or "-" if it was not to be measured. */
 static void time_print(const bench_row *row, double ms, double limit_s)
 {
     char text[32] = "-";
@@ -235,7 +235,7 @@ void bench_table_csv(const bench_table *table, FILE *out)
 
 enum { CURVE_POINTS = 64 };
 
-/* Every scene's time of one thing. */
+/* One of the measured times, of every scene. */
 typedef struct bench_curve {
     const char *what;
     int colour, marker, hollow;

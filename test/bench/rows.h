@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What was measured, a row each, and its three forms: tables, CSV and a chart. */
+/* The measurements, one in each row, and their three forms: tables, CSV and a chart. */
 #ifndef BENCH_ROWS_H
 #define BENCH_ROWS_H
 
@@ -7,7 +7,7 @@
 
 enum { BENCH_ROWS = 1024, BENCH_NAME = 48 };
 
-/* One thing measured of one scene. Times in ms; 0 for what there is none of. */
+/* One thing measured of one scene. Times in ms; 0 for those that were not measured. */
 typedef struct bench_row {
     char scene[BENCH_NAME], what[BENCH_NAME];
     uint32_t facets, vertices;
@@ -24,12 +24,12 @@ typedef struct bench_table {
     uint32_t count;
 } bench_table;
 
-/* Adds a row. The first `warm` samples are none of steady use: they count where there are no
+/* Adds a row. The first `warm` samples are not of steady use: they count only if there are no
    others. */
 const bench_row *bench_row_add(bench_table *table, const char *scene, const lrcs_scene *of,
                                const char *what, const bench_cell *cell, int warm);
 
-/* Markdown: a line a scene, and where there are peers a line a scene of ratios to them. */
+/* Markdown: a line for each scene, and if there are peers another one with the ratios to them. */
 void bench_table_print(const bench_table *table, double limit_s);
 
 void bench_table_csv(const bench_table *table, FILE *out);

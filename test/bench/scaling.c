@@ -66,7 +66,7 @@ static scaling_fit fit_make(const double *size, const double *value, int count)
 
 /* ---- measuring ---- */
 
-/* Prepares in an area that grows until it serves; the area is the caller's to free. */
+/* Prepares in a work area that grows until it suffices; the caller frees it. */
 static void *prepare_measure(const lrcs_scene *scene, const lrcs_prepared **prepared,
                              scaling_point *point)
 {
@@ -116,7 +116,8 @@ static int poses_measure(const scaling_series *series, const lrcs_prepared *prep
     return status;
 }
 
-/* In an area that grows until it serves; says where what the library asks for does not. */
+/* In a work area that grows until it suffices; prints a message if the size that the library states
+   does not. */
 static void method_measure(const scaling_series *series, const lrcs_prepared *prepared, int method,
                            scaling_point *point)
 {
@@ -215,7 +216,7 @@ static void answers_print(const scaling_series *series, const char *what)
 
 /* ---- the series ---- */
 
-/* How far: tiny, quick, full. */
+/* The extent of a series: tiny, quick, full. */
 enum { EXTENTS = 3 };
 static const uint32_t resolutions[EXTENTS] = {64, 1024, 1024};
 
@@ -304,7 +305,7 @@ static void worst_series(int which, int extent, scaling_series *series)
 }
 
 /* Scenes in which much is hidden by what is near in depth. Of hatched strips, seen from near +z,
-   n^2 pieces are visible for n strips; of the others some a facet. */
+   n^2 pieces are visible for n strips; of the other scenes a few pieces for each facet. */
 static void hidden_series(int extent)
 {
     static void (*const make[])(bench_scene *, uint32_t) = {bench_hatch, bench_book, bench_zigzag};

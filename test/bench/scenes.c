@@ -63,7 +63,7 @@ typedef struct bench_box {
     uint32_t *made; /* for each of six faces its (n + 1)^2 lattice points: the vertex, or none */
 } bench_box;
 
-/* Lattice point `at` of the surface, made where it is first met. */
+/* Lattice point `at` of the surface, made when it is first needed. */
 static uint32_t box_vertex(const bench_box *box, const uint32_t at[3])
 {
     uint32_t n = box->n;

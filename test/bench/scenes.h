@@ -17,8 +17,8 @@ typedef struct bench_scene {
    39 k, 440 k and 4 M). */
 void bench_satellite(bench_scene *s, uint32_t n);
 
-/* A space station: modules that run into one another, on a truss that pierces them, with panels
-   that stick in the truss. 228 n^2 - 24 n facets; twice as many where `doubled`, every facet then
+/* A space station: modules that intersect, on a truss that runs through them, with panels that
+   begin inside the truss. 228 n^2 - 24 n facets; twice as many where `doubled`, every facet then
    stored once more with the opposite winding, after all others. */
 void bench_station(bench_scene *s, uint32_t n, int doubled);
 
@@ -33,7 +33,7 @@ void bench_cushion(bench_scene *s, uint32_t n);
 void bench_layers(bench_scene *s, uint32_t layers, uint32_t n);
 
 /* Large triangles that all overlap as seen from anywhere near +z: each at a height of its own, or
-   all through one another. */
+   all of them intersecting. */
 enum bench_shards_kind { BENCH_STACKED, BENCH_PIERCING };
 void bench_shards(bench_scene *s, uint32_t count, int kind);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the fuzz targets share: the entry that libFuzzer and replay.c call, the word for a broken
-   promise, exact room from the heap (so that AddressSanitizer sees one byte too many), and small
-   choices made from the input's bytes. */
+/* What the fuzz targets share: the entry that libFuzzer and replay.c call, the check of a property
+   (require), heap blocks of exact size (so that AddressSanitizer sees an access one byte beyond
+   them), and small choices made from the input's bytes. */
 #ifndef TEST_FUZZ_H
 #define TEST_FUZZ_H
 
@@ -34,7 +34,7 @@ static inline void require_where(const lrcs_where *where, size_t size)
     require(where->offset <= size && memchr(where->found, '\0', sizeof where->found) != NULL);
 }
 
-/* What was filled with a pattern and must not have been touched since. */
+/* Checks that memory that was filled with a pattern is unchanged. */
 #define FUZZ_PATTERN 0x5a
 static inline int fuzz_untouched(const void *bytes, size_t size)
 {
@@ -46,7 +46,7 @@ static inline int fuzz_untouched(const void *bytes, size_t size)
     return 1;
 }
 
-/* The input, taken byte by byte; zeros beyond its end. */
+/* The input, read byte by byte; zeros beyond its end. */
 typedef struct fuzz_input {
     const unsigned char *at, *end;
 } fuzz_input;

@@ -10,7 +10,7 @@
 
 static const double units[8] = {1, 1 / 3.14159265358979323846, 1e-9, 1e9, 1e100, 1e-300, 0, -1};
 
-/* Whole and half degrees; now and then next to what is refused, or just that. */
+/* Whole and half degrees; sometimes next to the limits, or just beyond them. */
 static double take_angle(fuzz_input *in)
 {
     static const double odd[6] = {1e-9, 1e-300, 89.9999999999, 90, -45.25, 60};

@@ -70,8 +70,8 @@ static inline double take_scale(fuzz_input *in)
     return scale[fuzz_byte(in) & 7];
 }
 
-/* Two methods, that of the options and another, now and then all; and one thing more: too little
-   memory, to turn, polygons, or few steps. */
+/* Runs two methods, that of the options and another one, or sometimes all; and one more test: too
+   little memory, the scene with its axes renamed, polygons, or few steps. */
 static inline void take_choices(unsigned effects, unsigned share, fuzz_run *run, int *turned)
 {
     unsigned other = ((unsigned)run->options.method + 1 + share % 3) & 3;

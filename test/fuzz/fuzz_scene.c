@@ -27,8 +27,8 @@ static lrcs_mesh ridge(int normals)
     return mesh;
 }
 
-/* Shapes whose division takes a hundred times the rest: round ones but for those that 64 facets
-   leave no choice. */
+/* Shapes whose division takes a hundred times as long as all else: round ones, unless a limit of 64
+   facets leaves no choice. */
 static int is_dear(const lrcs_recipe *recipe)
 {
     int dear = 0;

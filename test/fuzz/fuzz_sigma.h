@@ -102,7 +102,7 @@ static inline void require_result(const lrcs_scene *scene, const lrcs_result *r)
     require_records(scene, r);
 }
 
-/* One verdict, and that which the numbers give. */
+/* Exactly one verdict on the tolerance applies, and it agrees with the numbers. */
 static inline void require_verdict(const lrcs_run_options *options, const lrcs_result *r)
 {
     double most = options->tolerance * r->sigma_m2;
@@ -118,7 +118,7 @@ static inline void require_verdict(const lrcs_run_options *options, const lrcs_r
     require(!missed || options->accept != LRCS_ACCEPT_ANY);
 }
 
-/* Where the truth is, after every answer so far. */
+/* The interval that contains the truth by all answers so far. */
 typedef struct fuzz_truth {
     long double low, high;
 } fuzz_truth;
@@ -128,7 +128,8 @@ static inline void require_truth(const fuzz_truth *t)
     require(t->low - t->high <= 4 * LDBL_EPSILON * fabsl(t->high)); /* of its own rounding */
 }
 
-/* One answer more. Over curved normals a bound leaves the cubature aside and says less. */
+/* Intersects it with the interval of another answer; not over curved normals, where the bound does
+   not include the error of the cubature. */
 static inline void learn(fuzz_truth *truth, const lrcs_scene *scene, const lrcs_result *r)
 {
     if (!scene->corner_normal) {

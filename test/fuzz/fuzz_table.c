@@ -40,7 +40,7 @@ static char *field_copy(const lrcs_host_field *field)
     return copy;
 }
 
-/* A number is the one that strtod reads, to the bit, or no number. */
+/* A number has the bits that strtod reads, or is refused. */
 static void require_number(const lrcs_host_table *table, uint32_t column)
 {
     lrcs_host_error error;
@@ -74,7 +74,7 @@ static void require_name(const lrcs_host_table *table, uint32_t column)
     free(copy);
 }
 
-/* Fields stand in the row's line, in order, without what parts them or lines. */
+/* Fields lie within the row's line, in order, and contain neither separators nor line ends. */
 static void require_row(const lrcs_host_table *table, const char *text, const char *end)
 {
     const char *last = text;

@@ -30,7 +30,7 @@ typedef struct hostile_case {
     lrcs_scene scene;
 } hostile_case;
 
-/* Numbers of which quantiles are wanted. */
+/* Numbers of which quantiles are printed. */
 typedef struct quantiles {
     double *x;
     unsigned count, room;
@@ -85,7 +85,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Below which the share of the numbers lies. */
+/* The value below which this share of the numbers lies. */
 static double quantile(quantiles *q, double share)
 {
     if (q->count == 0) {
@@ -175,7 +175,7 @@ static double bulk_of(const hostile_case *c)
     return 16 * far[count / 2];
 }
 
-/* Does the facet stand on a vertex that far from another of its own? */
+/* Does the facet have a vertex that is so far from another one of its own? */
 static int facet_reaches(const hostile_case *c, uint32_t facet, double far)
 {
     const uint32_t *corner = c->facet[facet].corner;

@@ -46,7 +46,7 @@ static int same_numbers(const lrcs_result *a, const lrcs_result *b)
 
 /* --- auto ------------------------------------------------------------------------------------- */
 
-/* Over many directions and tolerances all that may happen does, and each time it is said. */
+/* Over many directions and tolerances every outcome occurs, and the flags state it each time. */
 static void estimates_are_flagged_and_are_those_of_the_raster_they_name(void **state)
 {
     (void)state;
@@ -243,8 +243,8 @@ static void guesses_are_made_of_many_facets_only(void **state)
     assert_int_equal(r.method, LRCS_METHOD_EXACT);
 }
 
-/* Whatever memory and steps there are, an answer holds the truth, and says what it lacked; more
-   memory never fails where less served. */
+/* With any amount of memory and steps, an answer's bound holds, and its flags say what did not
+   suffice; no run fails with more memory if one succeeds with less. */
 static void estimates_with_little_memory_and_few_steps_hold_the_truth(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The z-buffer's bound and its guess against exact rational visibility: 210 small scenes full of
-   degenerate contacts (test/vectors/visible.py), at several resolutions, one-sided and two-sided.
- */
+/* The z-buffer's bound and its estimate against exact rational visibility: 210 small scenes full
+   of degenerate contacts (test/vectors/visible.py), at several resolutions, one-sided and
+   two-sided. */
 #include <stdlib.h>
 
 #include "visible.h"
@@ -169,8 +169,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Half of all guesses within a factor of 5 at every resolution, and 95 % of them all not below the
-   error; errors that rounding alone could make are left out. */
+/* Half of all estimates are within a factor of 5 at every resolution, and 95 % of all are not below
+   the error; errors that rounding alone could cause are left out. */
 static void estimate_is_near_the_error_and_seldom_below(void **state)
 {
     (void)state;
@@ -281,8 +281,8 @@ static void facet_in_more_pieces_than_fit_is_bounded(void **state)
 }
 
 /* Symptom: one facet of a satellite seen along +x, edge-on to within 1e-25, put half of sigma into
-   the bound: its tan^2 of 1e50 was accurate to three digits only, and the bound took the glint's peak for it.
- */
+   the bound: its tan^2 of 1e50 was accurate to three digits only, and the bound took the glint's
+   peak for it. */
 static void facet_at_grazing_light_does_not_spoil_the_bound(void **state)
 {
     (void)state;

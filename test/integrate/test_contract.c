@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs_sigma_run documents of itself: statuses, outputs left alone on failure, flags and
+/* What lrcs/run.h states of lrcs_sigma_run: statuses, outputs left alone on failure, flags and
    notices, pictures. */
 #include "scenes.h"
 
@@ -105,7 +105,7 @@ static void picture_of_more_pixels_than_any_raster_is_refused(void **state)
     }
 }
 
-/* A pose of which one number is wrong, 0 to 2 the direction's, from 3 on R's. */
+/* A pose with one invalid number: 0 to 2 of the direction, from 3 on of R. */
 static void pose_is_refused(int number, double value, int status)
 {
     lrcs_pose pose;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What auto counts before it chooses, and that what it chooses is bounded by what it counted. */
+/* The counts from which method auto chooses, and the limit of work that follows from them for its
+   choice. */
 #include "integrate/plan/cost.h"
 
 #include "scenes.h"
@@ -57,8 +58,8 @@ static void facets_with_contacts_are_counted(void **state)
     assert_true(counted((const double[3]){0.1, 0.2, 1}).contacts >= 3);
 }
 
-/* Of many facets some are looked at: what they stand for is all, and their borders are found to
-   within chance. */
+/* Of many facets a sample is counted, which represents all; the length of borders is right to
+   within sampling errors. */
 static void many_facets_are_counted_by_a_sample(void **state)
 {
     (void)state;

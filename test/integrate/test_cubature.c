@@ -86,7 +86,7 @@ static void both_parts_together_are_each_what_they_are_alone(void **state)
     }
 }
 
-/* No bound tells how far below the least double a flank is: no halving could. */
+/* A flank may lie below the smallest double by any factor, and no subdivision would tell. */
 static void a_mirror_that_shows_no_glint_is_done_at_once(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void a_mirror_that_shows_no_glint_is_done_at_once(void **state)
     }
 }
 
-/* Beside brighter surfaces an error may be theirs to measure; the estimate still holds it. */
+/* Beside brighter surfaces the error allowed is relative to those; the estimate still covers it. */
 static void beside_others_the_error_is_larger_and_within_its_estimate(void **state)
 {
     (void)state;
@@ -181,8 +181,8 @@ static void normals_that_face_away_reflect_nothing(void **state)
     check_same(sum.estimate + sum.rounding, 0);
 }
 
-/* Normals within their error of the plane across the line of sight may reflect, or reflect more than
-   as computed: that is within the rounding bound. */
+/* Normals within their error of the plane across the line of sight may reflect, or reflect more
+   than as computed: that is within the rounding bound. */
 static void nearly_grazing_normals_reflect_within_the_rounding_bound(void **state)
 {
     (void)state;
@@ -197,8 +197,8 @@ static void nearly_grazing_normals_reflect_within_the_rounding_bound(void **stat
     }
 }
 
-/* Where no steps are left, the parts that were not subdivided any further count in the bound and not
-   in the estimate; also where the normals have the error that position_err states. */
+/* Where no steps are left, the parts that were not subdivided any further count in the bound and
+   not in the estimate; also where the normals have the error that position_err states. */
 static void without_steps_what_is_left_is_within_its_bound(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
     }
 }
 
-/* Whatever the slope, it ends; where it cannot do what is asked, the estimate says so. */
+/* For every slope the cubature ends; if it misses the tolerance, the estimate says so. */
 static void absurd_slopes_end_in_finite_work_and_an_estimate_that_tells(void **state)
 {
     (void)state;

@@ -101,7 +101,7 @@ static void a_smooth_cylinder_of_24_sides_is_within_1_percent_where_flat_ones_sw
     }
 }
 
-/* The glint alone, which is what the comb ruins: all of it, or nothing. */
+/* The glint alone: over flat sides it is either present in full or absent, by azimuth. */
 static void the_glint_of_flat_sides_swings_by_100_percent(void **state)
 {
     (void)state;
@@ -246,7 +246,7 @@ static void normals_equal_to_the_facets_own_change_nothing(void **state)
     curved_free(&c);
 }
 
-/* Nearly equal ones take the other way through the engine, to the same sigma. */
+/* Nearly equal normals are integrated as curved ones, with the same sigma. */
 static void normals_a_millionth_of_a_millionth_off_change_sigma_by_no_more(void **state)
 {
     (void)state;

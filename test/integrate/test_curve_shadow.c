@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A smooth model in the shadow of an engine-made sphere. The truth is that of the true sphere, from
    an integral over the model's sides which knows nothing of facets, clipping or cubature; the
-   sphere's mesh is coarse, and what its shadow may miss is the bound's to know. */
+   sphere's mesh is coarse, and the bound must cover the error of its shadow. */
 #include "curved.h"
 #include "ray_caster.h"
 

@@ -133,7 +133,7 @@ static uint64_t steps_of(int kind, int n, const double direction[3])
     return r.steps;
 }
 
-/* n of a kind take at most so many steps, and so many times those of half of them. */
+/* A scene of size n takes at most so many steps, and at most so many times those of size n / 2. */
 static void check_growth(int kind, int n, const double direction[3], uint64_t most, double times)
 {
     double half = (double)steps_of(kind, n / 2, direction);

@@ -648,7 +648,7 @@ static void sigma_below_the_least_normal_double_is_within_its_bound(void **state
 
 static const double unfit[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 1.0000001e100};
 
-/* At every door: the scene's, the material's, the pose's, the shape's; outputs stay as they are. */
+/* Invalid numbers are refused in scenes, materials, poses and shapes; outputs stay as they are. */
 static void nan_inf_and_1e308_are_refused(void **state)
 {
     (void)state;

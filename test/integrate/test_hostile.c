@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes that once broke a bound, with their exact answers (test/hostile/bounds.py, which has as
-   many more as one likes). What each of them showed stands at its test. */
+/* Scenes that once violated a bound, with their exact answers (test/hostile/bounds.py, which
+   generates any number of others). The comment of each test states its symptom. */
 #include <lrcs/lrcs.h>
 
 #include <string.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Every public function that takes memory from a work area, given it byte by byte: from nothing to
-   what its _need says. Below what serves it says LRCS_E_MEMORY, takes nothing, touches neither its
-   output nor a byte beyond the area, and tells that it wanted more; once served it is served by
-   every larger area; at _need it is served, and undegraded. */
+   what its _need says. With too little it returns LRCS_E_MEMORY, takes nothing, touches neither its
+   output nor a byte beyond the area, and reports a peak that exceeds the area. If an area suffices,
+   so does every larger one; with _need bytes the answer is not degraded. */
 #include "build3ds.h"
 #include "curved.h"
 #include "integrate/cubature/cubature.h"
@@ -96,8 +96,8 @@ static int call_polygons(lrcs_work *work)
     return lrcs_polygon_run(prepared, &pose, work, &out.polygons);
 }
 
-/* A degraded answer says what would have served in full. Under auto a raster of curved facets may
-   have too little where clipping has enough. */
+/* A degraded answer reports how much memory would have sufficed in full. Under auto a raster of
+   curved facets may have too little where clipping has enough. */
 static int sigma_wanted(size_t wanted, size_t size)
 {
     int gives_up = options.method == LRCS_METHOD_AUTO && prepared->has_curved_normals;

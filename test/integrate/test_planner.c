@@ -209,8 +209,8 @@ static void effects_proved_not_to_matter_are_off(void **state)
     }
 }
 
-/* A material with a glint, but only on facets that are hidden: the effect is off in that pose, and on where a
-   sliver an ulp wide shows it. */
+/* A material with a glint, but only on facets that are hidden: the effect is off in that pose, and
+   on where a sliver an ulp wide shows it. */
 static void a_glint_is_off_where_nothing_seen_has_it(void **state)
 {
     (void)state;

@@ -149,7 +149,8 @@ static void run_methods(const double direction[3], lrcs_result result[METHODS])
     }
 }
 
-/* Two intervals for one truth, the second for `factor` times it. 4e-16: of this check itself. */
+/* The two intervals, the second of them for `factor` times the truth, must overlap. 4e-16 is for
+   the rounding of this check. */
 static void check_overlap(const lrcs_result *one, const lrcs_result *other, double factor)
 {
     assert_true(one->bound_m2 >= 0 && other->bound_m2 >= 0);
@@ -157,7 +158,7 @@ static void check_overlap(const lrcs_result *one, const lrcs_result *other, doub
               other->bound_m2 + factor * one->bound_m2 + 4e-16 * factor * one->sigma_m2);
 }
 
-/* Every scene of every family; `change` makes the other scene and returns by what sigma grows. */
+/* Every scene of every family; `change` makes the other scene and returns the factor of sigma. */
 static void each_scene(int laws, double (*change)(uint64_t *seed, double direction[3]))
 {
     for (size_t kind = 0; kind < FAMILIES; kind++) {

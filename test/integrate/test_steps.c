@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs that may take so many steps and no more: from one to what serves them they stop there, say
-   so, and their bounds hold what is found without a limit; from there on they are its, to the bit.
- */
+/* Runs with a limit of steps. Below the number that suffices they stop at the limit and say so,
+   and their bounds contain the answer without a limit; from there on they give that answer, to
+   the bit. */
 #include "scenes.h"
 
 #include "scene/prepare.h"
@@ -24,8 +24,8 @@ static lrcs_result run(int method, uint64_t steps)
     return r;
 }
 
-/* Less is known than without a limit, and nothing that is wrong. Returns what true curves may cost:
-   the more steps, the less. */
+/* An answer with a limit is less accurate than one without, but not wrong. Returns what true curves
+   may cost: the more steps, the less. */
 static double check_part(const lrcs_result *all, int method, uint64_t steps)
 {
     lrcs_result r = run(method, steps);

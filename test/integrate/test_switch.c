@@ -53,7 +53,7 @@ static void random_body(uint64_t *seed, int exact)
     }
 }
 
-/* One to four bodies in two materials, each term and each side worn or not. */
+/* One to four bodies with two materials: each term may be absent, and each material two-sided. */
 static void random_scene(uint64_t *seed)
 {
     uint32_t bodies = 1 + random_below(seed, 4);

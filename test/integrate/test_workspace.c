@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Starvation: the work area grows until everything fits. Below, each call says LRCS_E_MEMORY and
-   touches nothing, or falls back to a coarser raster whose bound still holds. */
+/* Too little memory: the work area grows until everything fits. With less, each call returns
+   LRCS_E_MEMORY and touches nothing, or falls back to a coarser raster whose bound still holds. */
 #include "scenes.h"
 
 #include "scene/prepared.h"
@@ -81,7 +81,7 @@ static int run_in(const lrcs_prepared *prepared, const lrcs_work *after, size_t 
     return status;
 }
 
-/* The least size that serves, found by halving: whatever the size, the run holds its promises. */
+/* The least size that suffices, found by bisection; the run is checked at every size tried. */
 static size_t least_size(const lrcs_prepared *prepared, const lrcs_work *after, size_t most,
                          const lrcs_run_options *options, double truth)
 {

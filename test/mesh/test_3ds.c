@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What 3DS files do in the wild, one habit a test; and what malformed ones must not do. */
+/* Peculiarities of real 3DS files, one in each test; and malformed files, which must be refused. */
 #include <lrcs/read.h>
 
 #include "mesh/read/3ds.h"
@@ -180,7 +180,7 @@ static void sections_come_in_any_order_and_number(void **state)
     assert_int_equal(mesh.notices, 0); /* a keyframer without nodes is none */
 }
 
-/* A chunk of an id that nobody knows, with bytes that look like a chunk of no length. */
+/* A chunk with an unknown id, with bytes that look like a chunk of no length. */
 static void unknown_chunk(void)
 {
     build3ds_open(&file, 0x7777);

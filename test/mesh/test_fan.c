@@ -285,7 +285,7 @@ static void fans_without_a_proof_have_an_apex(void **state)
     assert_int_equal(met, 0);
 }
 
-/* What is proved of a fan does not hang on where the direction points that is counted. */
+/* The proof succeeds in whichever direction the fan is turned. */
 static void surfaces_are_proved_whichever_way_they_face(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Formats told by content, and by name where the content is silent. */
+/* Formats recognised by content, and by the file's name if the content does not decide. */
 #include <lrcs/read.h>
 
 #include <stdlib.h>

@@ -529,7 +529,7 @@ static void a_work_area_is_refused_until_it_is_large_enough(void **state)
     assert_int_equal(served, 1);
 }
 
-/* What every mesh that was read must keep, whatever the bytes. */
+/* Checks the properties of every mesh that was read, whatever the bytes. */
 static void check_sound(const obj_case *c)
 {
     const lrcs_mesh *m = &c->mesh;
@@ -554,7 +554,8 @@ static void check_sound(const obj_case *c)
     }
 }
 
-/* Reads, and holds the reader to its word either way. Returns 1 where it succeeded. */
+/* Reads, and checks the contract of the reader, whether it succeeds or fails. Returns 1 if it
+   succeeds. */
 static int attack(const char *bytes, size_t size)
 {
     obj_case c = open_bytes(bytes, size);

@@ -25,7 +25,7 @@ static void an_extent_is_the_interval_of_heights(void **state)
     check_abs(extent, 0.25, 1e-11);
 }
 
-static void nothing_has_no_extent_and_no_triangle_all_of_it(void **state)
+static void an_empty_slice_has_no_extent_and_a_degenerate_triangle_all(void **state)
 {
     (void)state;
     lrcsi_slice slice = lrcsi_slice_start(corner_o, corner_p, corner_q);
@@ -57,7 +57,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contact_without_overlap_has_no_area),
         cmocka_unit_test(an_extent_is_the_interval_of_heights),
-        cmocka_unit_test(nothing_has_no_extent_and_no_triangle_all_of_it),
+        cmocka_unit_test(an_empty_slice_has_no_extent_and_a_degenerate_triangle_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* STL: the two kinds told apart, welding, and what malformed files must not do. */
+/* STL: the two kinds distinguished, welding, and malformed files, which must be refused. */
 #include "mesh/read/stl.h"
 
 #include <lrcs/read.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Closed forms of every shape against the defining integral (mpmath, test/vectors/closed.py), their
-   bounds, their limits into one another, and the door. */
+   bounds, their limits into one another, and what is refused. */
 #include <lrcs/shape.h>
 
 #include "check.h"
@@ -15,7 +15,7 @@ static const struct vector {
 #include "vectors/closed.inc"
 };
 
-/* What the issue asks: 1e-13 of each part. No vector needs more. */
+/* The accepted relative error of each part; no vector needs more. */
 #define ACCURACY 1e-13
 
 static lrcs_closed_form closed_of(const lrcs_shape *shape, const lrcs_brdf *brdf, double deg)
@@ -126,7 +126,7 @@ static void sigma_scales_exactly_by_powers_of_two(void **state)
     }
 }
 
-/* Two shapes that are one body: their closed forms take different roads. */
+/* Two shapes that are the same body, whose closed forms are computed by different formulas. */
 static void shapes_that_coincide_agree(void **state)
 {
     (void)state;

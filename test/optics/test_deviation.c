@@ -161,8 +161,9 @@ static double f_at(const lrcs_brdf *brdf, double theta, double turn, double azim
     return c > 0.0 ? f.glint + f.diffuse : 0.0;
 }
 
-/* A round cap of normals about the facet's: no lean, spread^2 its mean squared turn. Midpoints in
-   turn^2 are exact for the second-order error, which is all of the bound for a small cap. */
+/* A round cap of normals about the facet's: its bias is 0, its mean squared turn spread^2.
+   Midpoints in turn^2 are exact for the second-order error, which is all of the bound for a small
+   cap. */
 static void a_round_cap_of_normals_errs_by_less_than_its_bound(void **state)
 {
     (void)state;

@@ -156,7 +156,8 @@ static void a_glint_too_sharp_for_any_count_takes_few_facets(void **state)
     }
 }
 
-/* tan(0.1 deg) by mpmath. Half of the aspects around its glint lie on the other side of the axis. */
+/* tan(0.1 deg) by mpmath. Half of the aspects around its glint lie on the other side of the
+   axis. */
 static void a_cone_nearly_flat_is_divided_by_either_of_its_numbers(void **state)
 {
     (void)state;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Precedence: who dresses a surface, and which bindings matched. */
+/* Precedence: which binding assigns a surface its material, and which bindings matched. */
 #include "scene/build/bind.h"
 
 #include <string.h>
 
 #include "check.h"
 
-/* Numbers that tell who put them there. */
+/* Numbers that identify the binding that assigned them. */
 enum { BY_NAME = 1, BY_COLOUR, BY_PART, BY_MAP_NAME, BY_MAP_COLOUR, BY_DEFAULT, BY_OVERRIDE };
 
 static lrcs_brdf mark(int who)
@@ -37,7 +37,7 @@ static void check_who(const lrcs_material *material, int who)
 static lrcs_recipe_material own_material = {
     .name = "own", .brdf = {0.0, 0.03, 0.0, 0.0}, .two_sided = -1, .line = 1};
 
-/* All bindings that speak of surface "skin", in the order of their rank. */
+/* All bindings that apply to surface "skin", in the order of their rank. */
 static void make_recipe(lrcs_binding binding[5], uint32_t count, lrcs_recipe *recipe)
 {
     binding[0] = binding_of(LRCS_BIND_DEFAULT, NULL, BY_DEFAULT);

@@ -61,7 +61,7 @@ static lrcs_recipe_part shape_part(int kind, double a, double b, double c)
     return part;
 }
 
-/* Builds in exactly the area that is said to do; the caller frees *area. */
+/* Builds in a work area of exactly lrcs_scene_need bytes; the caller frees *area. */
 static int build_scene(const lrcs_recipe *recipe, const lrcs_mesh *models, void **area,
                        lrcs_scene *scene, lrcs_where *where)
 {

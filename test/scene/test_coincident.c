@@ -93,8 +93,8 @@ static void copies_are_recorded_as_hidden_facets(void **state)
     }
 }
 
-/* Symptom: a thousand facets in one place took seconds, ten thousand hours: each met all others.
-   What meets, hides and is asked for is now two of one winding, or one of each. */
+/* Symptom: a thousand facets in one place took seconds, ten thousand hours: each was compared with
+   all others. Now at most two take part: two of one winding, or one of each. */
 static void any_number_of_copies_is_the_work_of_one(void **state)
 {
     (void)state;

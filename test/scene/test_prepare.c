@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What preparing makes of a scene: scaled coordinates, normals of slivers against exact integers,
-   which facets take part, and what the door refuses. */
+   which facets take part, and what is refused. */
 #include "scene/prepare.h"
 
 #include "scenes.h"

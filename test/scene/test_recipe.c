@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene files: what each key comes to, what is refused and where, and that no bytes hurt. */
+/* Scene files: what each key means, what is refused and where, and that no bytes cause a fault. */
 #include <lrcs/scene.h>
 
 #include <stdlib.h>
@@ -57,7 +57,8 @@ static const char rich[] = "# a rich scene\n"
                            "colour = \"#1f2A6b\"\n"
                            "material = \"own\"";
 
-/* A text in a block of exactly its size, read with exactly the work area that is said to do. */
+/* Reads a text from a block of exactly its size, in a work area of exactly the size that is
+   stated. */
 static int read_text(const char *text, size_t size, void **area, lrcs_recipe *recipe,
                      lrcs_where *where)
 {

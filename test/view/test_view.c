@@ -246,7 +246,7 @@ static void points_lie_within_their_error(void **state)
     check_same(view.prepared->origin[0], view.prepared->centre[0]);
 }
 
-/* Of a vertex far away it tells on itself alone. */
+/* The error of a far vertex does not enlarge those of the others. */
 static void a_far_vertex_leaves_the_others_their_errors(void **state)
 {
     (void)state;

@@ -534,7 +534,7 @@ static void stacked_facets_are_classified_in_linear_time(void **state)
 }
 
 /* The walls of a cone are needles about its tip; the grid lists thousands of edges of its rim where
-   their boxes stand. Nothing hides any, from anywhere: each is told for itself. */
+   their boxes stand. From no direction does anything hide them: each is decided by itself. */
 static void needles_about_a_tip_are_decided(void **state)
 {
     (void)state;

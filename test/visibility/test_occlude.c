@@ -270,8 +270,8 @@ static void front_skin_hides_a_back_in_its_plane(void **state)
     check_same(share_left(up, &error), 1);
 }
 
-/* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and the error states its position
-   error. */
+/* Planes that meet at 1e-9: the cut is where exact arithmetic puts it, and the error states its
+   position error. */
 static void shallow_cuts_state_their_position_err(void **state)
 {
     (void)state;

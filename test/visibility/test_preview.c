@@ -89,8 +89,8 @@ static void shares_are_those_of_the_raster(void **state)
     assert_true(parted > 1000);
 }
 
-/* Plates through each other, along a line that meets samples exactly; beside them, and behind one
-   of them, plates so steep that no float holds their heights. */
+/* Plates that intersect along a line that meets samples exactly; beside them, and behind one of
+   them, plates so steep that no float holds their heights. */
 static void shares_on_a_crossing_and_of_steep_facets_are_those_of_the_raster(void **state)
 {
     (void)state;

@@ -257,8 +257,8 @@ static void owners_are_those_of_exact_samples(void **state)
     assert_true(owned > 50000);
 }
 
-/* Plates through each other, along a line that meets samples exactly; beside them, and behind one
-   of them, plates so steep that no float holds their heights. */
+/* Plates that intersect along a line that meets samples exactly; beside them, and behind one of
+   them, plates so steep that no float holds their heights. */
 static void owners_on_a_crossing_and_of_steep_facets_are_those_of_exact_samples(void **state)
 {
     (void)state;

@@ -38,7 +38,7 @@ static void edges_along_the_rows_err_by_what_is_guessed(void **state)
     }
 }
 
-/* Where nothing is undecided nothing is guessed. */
+/* Without undecided facets the estimate is 0. */
 static void whole_facets_have_no_likely_error(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static void strips_cut_askew(void)
 static const double up[3] = {0, 0, 1};
 
 /* Symptom: each strip took the share of the few samples that it owned, and the errors of all of
-   them leaned one way: by 230 pixels at N = 68, by 1,700 at 421. Together they now err as the
+   them had the same sign: by 230 pixels at N = 68, by 1,700 at 421. Together they now err as the
    samples about one line do. */
 static void a_row_of_strips_errs_as_one_line_does(void **state)
 {
@@ -153,8 +153,9 @@ static void ball_among_plates(uint64_t *seed)
     }
 }
 
-/* Half of all guesses within a factor of 5, and 95 % of them not below the error: of facets from a
-   thirtieth of a pixel to a hundred. Errors that rounding could make are left out. */
+/* Half of all estimates are within a factor of 5, and 95 % of them not below the error, for
+   facets from a thirtieth of a pixel to a hundred pixels. Errors that rounding could cause are
+   left out. */
 static void on_bodies_of_many_facets_the_guess_is_near_the_error(void **state)
 {
     (void)state;

@@ -23,7 +23,7 @@ typedef struct profile_job {
     const char *csv;
     const char *about;     /* in the chart: what it was made from */
     const char *title;     /* the scene's, or the name of its file */
-    int materials_assumed; /* 1 if some are illustrative or assumed: no bound includes their error */
+    int materials_assumed; /* 1 if some are illustrative or assumed: bounds exclude their error */
     lrcs_host_scene scene;
     lrcs_host_profile profile;
     profile_row *row;

@@ -46,9 +46,9 @@ static const double tolerances[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-
 /* How often the child process looks at the clock, us. */
 #define CHILD_TICK 5000
 
-/* An answer on its way to the parent process. Of its pointers the parent uses only those to constant
-   texts (the reasons in `result`), which are at the same address in both processes; all others refer
-   to memory of the child. */
+/* An answer on its way to the parent process. Of its pointers the parent uses only those to
+   constant texts (the reasons in `result`), which are at the same address in both processes; all
+   others refer to memory of the child. */
 typedef struct budget_answer {
     lrcs_result result;
     lrcs_run_options options;

@@ -47,7 +47,8 @@ static const image_convention image_conventions[LRCS_HOST_IMAGE_CONVENTIONS] = {
     {"are upside down, and their facets count from 1", 0, 1, 0, 1}};
 
 /* Of the pixels that are not empty in at least one of the images, the share in which both agree,
-   with rows and columns of the submitted image as in `convention`. If indices start at 1, 0 is none. */
+   with rows and columns of the submitted image as in `convention`. If indices start at 1, 0 is
+   none. */
 static double images_agree(const items_image *truth, const items_image *answer,
                            const image_convention *convention)
 {
