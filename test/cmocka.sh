@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Sees to it that cmocka is there for compiler $1: found, or installed, or one line that says how.
+# Makes sure that cmocka is available for compiler $1: finds or installs it, or prints how to install it.
 if ! command -v "$1" >/dev/null; then
     echo "make test needs the compiler $1; install it with: sudo apt-get install gcc" >&2
     exit 1

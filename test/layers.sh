@@ -3,7 +3,7 @@
 # Checks the order of the layers: a file includes its own layer or earlier ones, the tool only the
 # public headers, the core no system header that needs an operating system. Also: every header
 # compiles alone, no includes are cyclic, src/README.md names every file and, in its trace of one
-# facet, only what exists and calls that are made. Prints FILE:LINE and the reason for each breach.
+# facet, only what exists and calls that are made. Prints FILE:LINE and the reason for each violation.
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"

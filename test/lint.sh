@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # clang-tidy and cppcheck over src, clang-format over all C files but generated tables, the length
-# of lines. Installs nothing. Exit 1 where one of them has a word to say, or is missing.
+# of lines. Installs nothing. Exit 1 if one of them reports anything, or is missing.
 # usage: lint.sh [BUILD]    (in the root; BUILD holds what is generated)
 build=${1:-build}
 bad=0
@@ -23,7 +23,7 @@ if ! find src -name '*.c' | LC_ALL=C sort | xargs -P 2 -I FILE clang-tidy --quie
     bad=1
 fi
 
-# Not asked: unusedFunction, which would accuse a library. Suppressed: members that give a union its
+# Left out: unusedFunction, which reports public functions of a library. Suppressed: members that give a union its
 # alignment or wait for the library's user, and conditions that hold only on the path it imagines.
 echo 'lint: cppcheck over src'
 cppcheck --quiet -j 2 --std=c11 --enable=warning,style,performance,portability --inline-suppr \

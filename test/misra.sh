@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The core held against MISRA C:2012, as far as cppcheck's addon goes: which rules it breaks how
-# often. Fails on a rule that test/misra.md does not list as a deviation, and on one that it lists
-# and nothing breaks.
+# Checks the core against MISRA C:2012, as far as cppcheck's addon does, and prints how often each rule
+# is violated. Fails on a rule that test/misra.md does not list as a deviation, and on a listed one
+# that is not violated.
 # usage: misra.sh    (in the root)
 if ! command -v cppcheck >/dev/null; then
     echo 'misra needs cppcheck; install it with: sudo apt-get install cppcheck' >&2
@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 
 cppcheck --quiet -j "$(getconf _NPROCESSORS_ONLN)" --std=c11 --addon=misra --template='{file}:{line} {id}' \
     -Iinclude -Isrc src/base src/mesh src/optics src/scene src/view src/visibility src/integrate >"$work/all" 2>&1
-# a line of a header is told once for every file that includes it
+# a line of a header is reported once for every file that includes it
 sed -n 's/ misra-c2012-/ /p' "$work/all" | LC_ALL=C sort -u >"$work/found"
 if [ ! -s "$work/found" ]; then
     echo 'misra: cppcheck found nothing at all: has it its addon?' >&2

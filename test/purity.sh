@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Proves of the core's objects that they hold no writable data and call nothing outside but the
 # functions listed here: no heap, no stdio, no locale, no errno, no threads, no setjmp; and that
-# all they show outside is named lrcs_ or lrcsi_. And that the rooms whose results are promised to
-# be the same bits everywhere call of libm only what is exact or correctly rounded.
+# all their external names begin with lrcs_ or lrcsi_. And that the folders whose results have the same
+# bits everywhere call only those functions of libm that are exact or correctly rounded.
 # usage: purity.sh OBJ...
 same_everywhere='
 memchr memcmp memcpy memmove memset strchr strcmp strcspn strlen strncmp strspn

@@ -14,7 +14,7 @@ number=0
 logs=$(mktemp -d) || exit 1
 trap 'rm -rf "$logs"' EXIT
 export CMOCKA_MESSAGE_OUTPUT=TAP
-# Some launchers take longer to choose a Python than tests take with it: it is chosen once.
+# Some launchers take longer to find Python than the tests run: find it once.
 if python=$(python3 -c 'import sys; print(sys.executable)' 2>/dev/null); then
     mkdir "$logs/bin"
     printf '#!/bin/sh\nexec "%s" "$@"\n' "$python" >"$logs/bin/python3"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What the core takes of the stack: the frames of its functions and the deepest chain of calls from
+# How much stack the core uses: the frames of its functions and the deepest chain of calls from
 # each public function, from the call graph that gcc writes (-fcallgraph-info=su). Fails on
 # recursion, on a call through a pointer, and on a frame whose size is not known when compiling.
 # The frames of libm and libc are not in it.

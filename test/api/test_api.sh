@@ -21,8 +21,8 @@ fi
 said=$(python3 test/api/contract.py 2>&1)
 same comments_name_every_status_and_no_other "$?: $said" "0: "
 
-# A line gone or changed breaks programs that stand on it: a new minor version while the major one
-# is 0, then a new major one. A new line breaks none.
+# A removed or changed line breaks programs that use it, and needs a new minor version while the
+# major one is 0, later a new major one. An added line breaks none.
 python3 test/api/abi.py "${CC:-cc}" >"$scratch/abi"
 same the_surface_can_be_read "$?" 0
 if cmp -s "$scratch/abi" test/api/abi.txt; then

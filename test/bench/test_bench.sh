@@ -8,7 +8,7 @@ cd "$scratch" || exit 1
 mkdir cases peers
 printf 'import sys\nprint("v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3")\nassert sys.argv[1] == "10"\n' >cases/hatch.py
 printf 'raise SystemExit(1)\n' >cases/stack.py
-# a peer that takes 2 ms a pose and 3 to build, and one that is not there
+# a peer that takes 2 ms for each pose and 3 ms to build; the other peer is missing
 printf '#!/bin/sh\nfor i in 1 2 3; do echo "10 20 1.5 2e-3"; done\necho "median 2e-3 s a pose, build 3e-3 s" >&2\n' >peers/embree_lrcs
 chmod +x peers/embree_lrcs
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj

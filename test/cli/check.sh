@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# For the shell tests of the tool: what it is asked, and what its answer must be.
+# Functions for the shell tests of the tool: they run it and compare its output.
 # Sourced with $1 the tool's path; sets out (stdout), err (stderr), rc and a scratch folder.
 tool=$1
 case $tool in /*) ;; *) tool=$PWD/$tool ;; esac
@@ -106,8 +106,8 @@ near() {
 # keys: the top-level keys of the JSON in $out, in order, in one line.
 keys() { printf '%s\n' "$out" | sed -n 's/^  "\([a-z0-9_]*\)":.*/\1/p' | tr '\n' ' '; }
 
-# value KEY: what stands after a top-level key of the JSON in $out. Tests ask so often that no process
-# is started for it.
+# value KEY: the value of a top-level key of the JSON in $out. Tests use it so often that it starts no
+# process.
 value() {
     while IFS= read -r line; do
         case $line in

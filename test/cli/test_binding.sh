@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Which materials a name on the command line or in a scene file stands for: patterns, letters of the
-# other case, and what an error tells of names that are like it.
+# other case; and which similar names an error message suggests.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 
@@ -38,7 +38,7 @@ f 5 7 8 6
 usemtl grey
 f 7 9 10 8
 END
-# areas NAME WANT OPTIONS...: the area, m2, of what returns anything; the rest is dark.
+# areas NAME WANT OPTIONS...: the area, m2, of the plates that reflect; the others are dark.
 areas() {
     name=$1
     want=$2
@@ -64,7 +64,7 @@ areas and_before_letters_of_the_other_case 8 --material grey=$lit --material Gre
 areas which_go_before_a_pattern 8 --material Grey=$lit --material "*=0,0,0.2,0"
 areas of_two_patterns_the_last_holds 12 --material "*=$lit" --material "SOL*=0,0,0.2,0"
 
-# Numbers of one statement are off together: their errors add up, and not as squares do.
+# The errors of numbers from one statement are fully correlated: they add up, and not their squares.
 # share NAME WANT OPTIONS...: the deviation over sigma.
 share() {
     name=$1

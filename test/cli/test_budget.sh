@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs run --time-budget: whatever it finds in its time, the options that it names give again; its
-# process ends with it.
+# lrcs run --time-budget: the options that it prints reproduce its answer, whatever that is; and its
+# child process ends with it.
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1
@@ -27,7 +27,7 @@ usage_error the_raster_is_not_for_both_to_choose "leave out --resolution" run bo
 usage_error the_budget_does_not_explain "leave out --explain" run box.toml --time-budget 9 --explain
 
 # ---- answers, and the same again ----
-# numbers: what two runs of the same settings agree in.
+# numbers: those in which two runs with the same settings agree.
 numbers() { printf '%s\n' "$out" | grep -E '"(scene_hash|sigma_m2|sigma_glint_m2|bound_m2|projected_area_m2|method|resolution|facets|direction)":'; }
 # again NAME SCENE: the options named by the JSON in $out give the same numbers.
 again() {
@@ -62,7 +62,7 @@ first=$(value bound_m2)
 same the_last_setting_is_the_worse_one "$(awk -v a="$first" -v b="$clipped" 'BEGIN { print a * 1.01 < b }')" 1
 run run box.toml --direction 1,1,1 --time-budget 60000 --json
 same a_later_worse_answer_replaces_nothing "$(value bound_m2) $(value method)" "$first \"facet\""
-# With all the time that is needed, no setting by itself is better: rasters may be by their rounding.
+# With as much time as is needed, no single setting is better, except for rasters by their rounding.
 for scene in pair; do
     run run $scene.toml --direction 1,1,1 --time-budget 60000 --json
     got=$(value bound_m2)
@@ -75,7 +75,7 @@ done
 
 # error: of the JSON in $out: its bound, or where that exceeds a tenth of sigma its estimate.
 error() { awk -v b="$(value bound_m2)" -v e="$(value estimate_m2)" -v s="$(value sigma_m2)" 'BEGIN { t = 0.1 * s; if (b > t && e != "null" && t + e < b) b = t + e; printf "%.17g", b }'; }
-# However long it had: the answer is one of the settings of the sequence, and the first, which is always
+# After any time: the answer is one of the settings of the sequence, and the first one, which is always
 # completed, is not better.
 crossing 400 >many.obj # so many that rasters of samples alone are drawn
 for scene in crossed many; do
@@ -128,7 +128,7 @@ for budget in 0.001 300; do
 done
 
 # ---- its processes ----
-# children PID: those that have not ended.
+# children PID: its child processes that have not ended.
 children() { ps -A -o pid=,ppid=,stat= | awk -v p="$1" '$2 == p && $3 !~ /^Z/ { print $1 }'; }
 # Clipping these takes longer than is waited for the end of the process, on any machine.
 crossing 3000 >dense.obj

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs compare, judged by codes whose mistakes are known: a raster code of its own (examples/kit) that
-# is right, and wrong on purpose in one way after another; and tables made from the truth.
+# lrcs compare, tested with answers whose mistakes are known: those of a raster code (examples/kit) that
+# is right, or has one deliberate mistake; and tables made from the truth.
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1
@@ -10,7 +10,7 @@ ${CC:-cc} -O2 -std=c11 -Wall -Wextra -Werror -ffp-contract=off -o raster "$root/
 "$tool" vectors kit --tier 3 --resolution 96 >/dev/null
 "$tool" vectors whole --resolution 64 >/dev/null
 
-# why NAME EXIT WORDS: what the last verdict was, and that it says so.
+# why NAME EXIT WORDS: the last verdict has this exit status, and its text these words.
 why() {
     found=$(printf '%s\n' "$out" | grep -ac -- "$3")
     same "$1" "$rc $found" "$2 1"
@@ -89,7 +89,7 @@ why float_is_named 1 '^why          single precision'
 run compare kit theirs.csv --tier 2 --class float
 why float_is_enough_where_it_is_asked 0 '^verdict      passed'
 
-# What else they hand in.
+# Tables of facets and images of items.
 mkdir images
 ./raster kit 96 items=images >theirs.csv
 mkdir mixed && cp images/box.a.item.u32 mixed && cp images/box.a.item.u32 mixed/comb.a.item.u32
@@ -222,7 +222,7 @@ print(failed == told, len(failed) == j["failed"] == int(x.get("failures")) > 0,
       len(j["cases"]) == int(x.get("tests")) == sum(int(s.get("tests")) for s in x))')" "True True True"
 fi
 
-# What is no table of answers.
+# Files that are not tables of answers.
 refused() {
     printf '%b' "$3" >theirs.csv
     failure "$1" "$2" compare kit theirs.csv

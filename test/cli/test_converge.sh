@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs converge: which truth, the columns, the sentence, files, exit codes. No time is judged.
+# lrcs converge: which truth it takes, its columns, its conclusion, files, exit codes. No time is tested.
 . "$(dirname "$0")/check.sh"
 examples=$root/examples
 cd "$scratch" || exit 1
@@ -12,7 +12,7 @@ column() {
 }
 # truth KEY: of the JSON in $out.
 truth() { value truth | sed "s/.*\"$1\": \([^,}]*\)[,}].*/\1/"; }
-# within NAME: every error in t.csv that has a bound lies within it, the truth's own ($2) added.
+# within NAME BOUND: every error in t.csv that has a bound lies within that plus the truth's own BOUND.
 within() {
     same "$1" "$(awk -F, -v own="$2" 'NR > 1 && $11 != "" { n++; if (!($10 <= $11 + own)) bad++ }
         END { print (n > 0), bad + 0 }' t.csv)" "1 0"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs fit: tables of every kind, units, what is said of what is not determined, files, exit codes.
+# lrcs fit: tables of every kind, units, messages about parameters that the readings do not determine,
+# files, exit codes.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 

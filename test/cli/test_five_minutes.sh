@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The README's five minutes: its commands, as they stand there, on a model made here and, where they
-# are, on two real ones; with coarser sweeps, and with errors of materials as it tells to give them.
+# are, on two real ones; with coarser sweeps, and with errors of materials, given as it says.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 sed -n '/^## Five minutes/,/^## Commands/p' "$root/README.md" | sed -n '/^```$/,/^```$/p' | grep '^lrcs ' |

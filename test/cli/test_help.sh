@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Help and version: on stdout, exit 0, and true.
+# Help and version: on stdout, exit 0, and in agreement with the options of the tool.
 . "$(dirname "$0")/check.sh"
 
 run --help

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs image: what it refuses, and its files as others read them: Python's zlib and XML parser, a
+# lrcs image: what it refuses, and its files, read by other programs: Python's zlib and XML parser, a
 # reader of legacy VTK written from its documentation, and VTK itself where it is installed.
 . "$(dirname "$0")/check.sh"
 

@@ -45,8 +45,8 @@ failure device_is_no_model "/dev/zero: expected a regular file" info /dev/zero
 printf '[[part]]\nname = "p"\nfile = "pipe.obj"\n' >"$scratch/s.toml"
 failure pipe_is_no_part "pipe.obj: expected a regular file" run "$scratch/s.toml"
 
-# Bytes of address space from too few for anything to enough: done, degraded or refused with a
-# message, never a crash. Sanitizers need all of it.
+# Limits of address space from too small to sufficient: each run completes, is degraded, or is refused
+# with a message, and never crashes. Sanitizers need all address space.
 limit_memory() {
     name=$1
     shift
@@ -72,7 +72,7 @@ if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
     limit_memory a_raster run demo --method zbuffer --resolution 2048
     limit_memory a_picture image demo -o "$scratch/demo.png"
     limit_memory sweep sweep demo --az 0:20:10 --el 0
-    # Where memory refuses threads there are fewer, and the rows are those of one alone.
+    # If memory does not suffice for all threads, fewer run, and the rows are those of one thread.
     what='demo --az 0:8:2 --el 20 --method zbuffer --resolution 4096'
     # shellcheck disable=SC2086
     "$tool" sweep $what --jobs 1 >"$scratch/one.csv" 2>/dev/null

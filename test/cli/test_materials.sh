@@ -61,7 +61,7 @@ u = json.loads("""$out""")["material_uncertainty"]
 a, b = 0.1 * 0.58741471268846423, 0.01 * 10.756584794533006
 check("errors_from_the_command_line", abs(u["deviation_m2"] / math.hypot(a, b) - 1) < 1e-12, u)
 END
-# Names that one pattern binds are off together, names that are bound one by one are not.
+# Errors of names that one pattern binds are correlated; those of names bound one by one are not.
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 3 1 0\nv 2 1 0\n' >two.obj
 printf 'usemtl foil1\nf 1 2 3 4\nusemtl foil2\nf 5 6 7 8\n' >>two.obj
 run run two.obj --json --material 'foil*=0,0.25+-0.02,0,0'

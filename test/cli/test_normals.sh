@@ -4,7 +4,7 @@
 # usage: test_normals.sh TOOL
 . "$(dirname "$0")/check.sh"
 
-# A tube of 12 sides, by vertex normals; the same bare.
+# A tube of 12 sides, by vertex normals; the same without normals.
 awk 'BEGIN {
     for (z = -1; z <= 1; z += 2) for (k = 0; k < 12; k++) {
         a = k * 3.14159265358979 / 6

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs run --polygons: the table, what it may be asked beside, and its areas against --facets.
+# lrcs run --polygons: the table, the options that it can be combined with, and its areas against those
+# of --facets.
 . "$(dirname "$0")/check.sh"
 
 cd "$scratch" || exit 1

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Coordinates that are no place in space: refused with the file, the line, what was found and what
-# was expected; and what holds none, which is no failure.
+# Coordinates that are not finite numbers are refused with the file, the line, what was found and what
+# was expected; files without coordinates are not a failure.
 . "$(dirname "$0")/check.sh"
 
 # obj NUMBER: a triangle with it on line 2.

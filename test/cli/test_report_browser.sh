@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # lrcs report in a browser, where Chromium is installed: on a phone and on a desk, in light and dark,
-# nothing wider than the page, no words cut off, all of it readable, and no complaint.
+# nothing is wider than the page, no words are cut off, all text is readable, and there is no error.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)

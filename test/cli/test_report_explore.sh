@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # lrcs report --explore: a page that needs nothing beside it, holds the map as lrcs sweep computes it,
-# and, in Chromium where that is installed, is used by mouse and keys without a complaint.
+# and, in Chromium where that is installed, works with mouse and keys without an error.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 
@@ -63,7 +63,7 @@ try:
     check("a_reduced_body_is_within_the_limit_and_keeps_its_box", 5000 < n <= 20000 and
           abs(max(p[1::3]) - min(p[1::3]) - 37.2662) < 0.2)
 except FileNotFoundError: pass
-# frames are not drawn where nobody looks: without them, at once
+# a hidden page draws no frames: run their functions at once
 page = html.escape(text.replace("<head>", "<head><script>window.requestAnimationFrame = draw => setTimeout(draw, 0)</script>", 1), quote=True)
 open("frame.html", "w", encoding="utf-8").write("""<!DOCTYPE html><meta charset="utf-8"><body>
 <iframe id="phone" width="390" height="900" srcdoc="%s"></iframe>

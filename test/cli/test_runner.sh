@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The test runner: a clone without the models skips their tests and passes; what fails, fails, and so
-# does a program that ends before it has run all that it planned.
+# The test runner: a clone without the models skips their tests and passes; a failing test is reported,
+# and so is a program that ends before it has run all the tests of its plan.
 . "$(dirname "$0")/check.sh"
 mkdir "$scratch/tests"
 # expect NAME STATUS LINE: run.sh on the programs exits so, and prints the line

@@ -95,7 +95,7 @@ same the_library_is_told_as_a_guess "$(grep -c '^like = "solar-cell"   # GUESS: 
 same published_entries_of_the_library_are_marked "$(sed -n "/Names of the library/,/ideal-glint/p" a.toml | tr " " "\n" | grep -c "^paint-.*[*],")" 3
 same glass_is_told "$(grep -c 'fully transparent: left out' a.toml) $(grep -c '^keep_transparent = true' d.toml)" "1 1"
 
-# An edited file: what is no longer called assumed is given, other assumed numbers are told as such.
+# An edited file: numbers that are no longer marked as assumed count as given; others are reported.
 sed 's/^assumed = true.*//' a.toml >edited.toml
 run run edited.toml --json --method facet
 same an_edited_material_is_given "$(printf '%s\n' "$out" | grep -c '"source": "given"')" 3

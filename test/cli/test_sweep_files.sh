@@ -82,7 +82,7 @@ rm again.npy
 same a_map_says_of_which_sweep_it_is "$(sed -n 1,2p whole.npy.head) $(sed -n 3p whole.npy.head | sed 's/=fnv1a:[0-9a-f]*;/=H;/')" "$(sed -n 1,2p whole.csv) # map=H; missed=0; starved=0; estimated=0; unjudged=0"
 
 # ---- damaged rows ----
-# damage NAME SED TEXT: row 8 changed so is not gone on with, and the message says why.
+# damage NAME SED TEXT: row 8 changed so is not continued, and the message says why.
 damage() {
     head -20 whole.csv | sed "$2" >again.csv.partial
     # shellcheck disable=SC2086
@@ -223,13 +223,13 @@ for kind in csv jsonl npy; do
     same "the_first_${kind}_ends_well" "$?" 0
     equal "its_${kind}_is_as_if_alone" two.$kind alone.$kind
 done
-# A lock that a killed process left is none.
+# A lock that a killed process left behind does not count.
 echo 'process 1 on nowhere' >dead.csv.lock
 # shellcheck disable=SC2086
 run sweep $what -o dead.csv
 equal a_dead_lock_locks_nothing dead.csv whole.csv
 same and_goes_away "$(ls dead.csv.lock 2>/dev/null)" ""
-# What another program did to the rows does not become the file.
+# Rows that another program has changed do not become the file.
 # shellcheck disable=SC2086
 "$tool" sweep $endless -o gone.csv 2>gone.txt &
 first=$!

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs sweep --plot: what it refuses, and that what is drawn stands where the rows say: Python's XML
+# lrcs sweep --plot: what it refuses, and that points are drawn where the rows put them: Python's XML
 # parser reads ticks and curves, the rows are the sweep's own CSV.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1

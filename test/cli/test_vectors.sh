@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs vectors: the same bytes every time, what it may be asked, and what it writes, read by readers
-# of Python's own: three forms of each scene are one, tiers 1 and 2 and the images are what the
+# lrcs vectors: the same bytes every time, its options, and what it writes, read by Python programs that
+# share nothing with the tool: the three forms of each scene agree, tiers 1 and 2 and the images are what the
 # formulas of the kit's README say.
 . "$(dirname "$0")/check.sh"
 
@@ -122,7 +122,7 @@ off = [k for c in cases if (k := (c["scene"], c["attitude"])) and (
     or [int(r["facet"]) for r in records[k]] != list(range(len(scenes[k[0]][1]))))]
 check("facets_add_up_to_the_case", not off, off[:3])
 
-# Images: whoever stands first along the line of sight of a pixel, by a search over all facets.
+# Images: the first facet along the line of sight of a pixel, by a search over all facets.
 wrong, deep, pictures, shown = [], [], [], 0
 for c in cases:
     N = int(c["image"])

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The core as two files: they compile alone without a word, a program links with nothing else, and
+# The core as two files: they compile alone without a warning, a program links with nothing else, and
 # their call graph has no recursion.
 . "$(dirname "$0")/common.sh"
 

@@ -14,7 +14,7 @@ here=$("$scratch/task")
 same the_task_says_what_it_promises "$(echo "$here" | sed 's/ = [0-9a-f]*//g; s/ memory .*//')" \
     "$(sed -n '/^\/\* expected output/,/^\*\/$/p' $at/main.c | sed '1d;$d')"
 
-# Cycles that may take few steps answer all the same, and say so.
+# Cycles with a limit of few steps still return an answer, and flag it.
 # shellcheck disable=SC2086
 "${CC:-cc}" $flags -O1 -DFLIGHT_STEPS=2000u -Iinclude -o "$scratch/brief" $at/task.c $at/main.c $at/board_host.c \
     $library -lm
@@ -57,7 +57,7 @@ done
 # ---- Cortex-M7 ----
 needs the_task_flies_on_a_cortex_m7 arm-none-eabi-gcc qemu-system-arm
 m7='-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard'
-# No start files and no stubs of system calls: were a heap or stdio asked for, linking would fail.
+# Without start files and stubs of system calls: linking would fail if a heap or stdio were used.
 # shellcheck disable=SC2086
 join_core "$scratch" &&
     arm-none-eabi-gcc $m7 $flags -O0 -ffunction-sections -c -o "$scratch/lrcs.o" "$scratch/lrcs.c" &&
@@ -94,7 +94,7 @@ limit() {
     if [ "${got:-0}" -gt 0 ] && [ "$got" -le "$3" ]; then ok "$1"; else not_ok "$1" "got '$got'"; fi
 }
 
-# A stack that is too short runs into no memory, not into the task's.
+# A stack that overflows reaches addresses without memory, and not the memory of the task.
 # shellcheck disable=SC2086
 arm-none-eabi-gcc $m7 $flags -O2 -Iinclude -nostartfiles -T $at/board_m7.ld -Wl,--gc-sections,--defsym=STACK=4096 \
     -o "$scratch/short.elf" $at/task.c $at/main.c $at/board_m7.c "$scratch/lrcs.o" -lm

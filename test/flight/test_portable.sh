@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# A big-endian machine says what this one says, to the bit: a slice of make portable. Where no such
+# A big-endian machine gives the same bits as this one: a slice of make portable. Where no such
 # compiler or no emulator is installed it skips.
 . "$(dirname "$0")/common.sh"
 
@@ -14,7 +14,7 @@ flags='-std=c11 -pedantic -ffp-contract=off -Itest/portable -Itest -Iinclude -Is
 same it_builds_for_a_big_endian_machine "$?" 0
 said=$(qemu-s390x "$scratch/there" 8 "$scratch/reference" 2>&1)
 same a_big_endian_machine_says_the_same "$? $(echo "$said" | grep DIFFERS)" "0 "
-# The comparison compares: one hash that is another, and one sigma off by its own size.
+# The comparison reports a wrong hash, and a sigma that is wrong by its own size.
 sed '1s/[0-9a-f]*$/0123456789abcdef/' "$scratch/reference" >"$scratch/other"
 same a_hash_that_differs_is_told "$("$scratch/here" 8 "$scratch/other" 2>&1 | grep -c '^DIFFERS: hash')" 1
 sed 's/^\(sigma contacts_3 \)40/\141/' "$scratch/reference" >"$scratch/other"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The tool's charts as others read them: Python's XML parser and zlib, where there is Python.
+# The tool's charts, read by Python's XML parser and zlib, if Python is installed.
 . "$(dirname "$0")/../cli/check.sh"
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 cd "$scratch" || exit 1

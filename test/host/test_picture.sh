@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The tool's files as others read them: Python's zlib and json modules, where there is Python.
+# The tool's pictures, read by Python's zlib and json modules, if Python is installed.
 . "$(dirname "$0")/../cli/check.sh"
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 "$tool" run demo --tolerance 0.01 --azel 30,20 --json --image "$scratch/i.png" --image-size 200 \

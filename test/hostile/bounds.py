@@ -451,8 +451,8 @@ def make_plain(r):
     return kind.__name__, s, tuple(r.gauss(0, 1) for _ in range(3))
 
 
-# Bodies of which some vertices are far away. Facets that stand on those are dull, mostly: then sigma
-# is the body's, and its bound must not know how far they reach.
+# Bodies with some vertices far away. Most facets at these do not reflect: then sigma is that of the
+# body, and its bound must not depend on how far they reach.
 
 def far_point(r):
     far = 10.0 ** r.choice((r.uniform(2, 6), r.uniform(2, 24)))
@@ -494,7 +494,7 @@ def make_far(r):
     return "far_" + kind.__name__, s, d
 
 
-# Facets that meet in every way that there is. Coordinates are multiples of 6, so that middles of sides
+# Facets that intersect, touch and coincide in every way. Coordinates are multiples of 6, so that middles of sides
 # and of facets are integers: what passes through a corner or a side does so exactly.
 
 def six(r):
