@@ -158,7 +158,7 @@ struct lrcs_prepared {
                                           centre in any coordinate */
     double origin[3];                  /* of views: the centre of the bulk (scene/bulk.h) */
     double bulk[3];                    /* half the sides of the bulk */
-    uint32_t live;                     /* facets not skipped */
+    uint32_t live;      /* facets not skipped: with an area, and a material that is not omitted */
     int convex;         /* live facets lie on one convex surface, outward and one-sided, exactly or
                            by construction; then only facets at grazing incidence can be hidden */
     double grazing_cos; /* if convex: a facet with cos(theta) above this is entirely visible */

@@ -55,8 +55,9 @@ static inline int lrcsi_intersection_along(const lrcsi_intersections *intersecti
 }
 
 /* Finds all contacts. Facets marked in `skip` (degenerate, omitted) have none. `shell`, unless
-   NULL, names the shell of each facet; then `self` is decided too, which includes a
-   corner of one facet on a side of another, ends excluded: that alone is no contact.
+   NULL, names the shell of each facet (facets connected across edges); then `self` is decided too,
+   which includes a corner of one facet on a side of another, ends excluded: that alone is no
+   contact.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
    Work: almost linear on ordinary meshes, quadratic if all facets overlap each other. The result
    stays in the work area, and scratch memory is released; lrcsi_intersection_need bytes suffice for
