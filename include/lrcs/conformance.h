@@ -30,7 +30,9 @@ typedef struct lrcs_host_kit_case {
     uint32_t scene; /* index in the kit */
     int tier;
     double quaternion[4], direction[3], azel_deg[2];
-    double sigma_m2, bound_m2, float_m2, edge_m2;
+    double sigma_m2, bound_m2; /* the truth */
+    double float_m2;           /* what single precision may be off by in addition */
+    double edge_m2;        /* what a raster may be off by in addition, times its pixels per side */
     double side_m;         /* of the square that is shown */
     uint32_t image;        /* side of its pictures in pixels, 0 for none */
     double answer_m2;      /* sigma that was answered; may be NAN */
@@ -95,7 +97,7 @@ enum lrcs_host_facet_kind {
 #define LRCS_HOST_IMAGE_CONVENTIONS 10u
 
 typedef struct lrcs_host_kit_facet {
-    const lrcs_host_kit_case *one;
+    const lrcs_host_kit_case *kit_case;
     uint32_t facet;
     double answer_m2, truth_m2;
     double sigma_m2; /* the change of sigma */
@@ -116,8 +118,8 @@ typedef struct lrcs_host_kit_facets {
 
 /* An image that does not agree with the truth in any of the conventions. */
 typedef struct lrcs_host_kit_image {
-    const lrcs_host_kit_case *one;
-    double agree;                      /* share of the non-empty pixels that agree */
+    const lrcs_host_kit_case *kit_case;
+    double agree_share;                /* share of the non-empty pixels that agree */
     uint32_t facet[LRCS_HOST_KIT_TOP]; /* the facets that lose most pixels */
     uint32_t lost[LRCS_HOST_KIT_TOP];  /* number of lost pixels; 0: no such facet */
 } lrcs_host_kit_image;

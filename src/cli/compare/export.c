@@ -25,8 +25,8 @@ static void facets_json(lrcs_host_json *json, const lrcs_host_judgement *job)
     for (uint32_t i = 0; i < facets->worst_count; i++) {
         const lrcs_host_kit_facet *off = &facets->worst[i];
         lrcs_host_json_put(json, "{scene=%s attitude=%s facet=%u way=%s",
-                           job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
-                           lrcs_host_facet_kind_text(off->kind));
+                           job->kit.scene[off->kit_case->scene].name, off->kit_case->attitude,
+                           off->facet, lrcs_host_facet_kind_text(off->kind));
         lrcs_host_json_put(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
                            off->answer_m2, off->sigma_m2);
     }
@@ -45,8 +45,8 @@ static void items_json(lrcs_host_json *json, const lrcs_host_judgement *job)
     for (uint32_t i = 0; i < items->named; i++) {
         const lrcs_host_kit_image *image = &items->image[i];
         lrcs_host_json_put(json, "{scene=%s attitude=%s agree=%g lost=[\n",
-                           job->kit.scene[image->one->scene].name, image->one->attitude,
-                           image->agree);
+                           job->kit.scene[image->kit_case->scene].name, image->kit_case->attitude,
+                           image->agree_share);
         for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP && image->lost[n] > 0; n++) {
             lrcs_host_json_put(json, "{facet=%u pixels=%u}", image->facet[n], image->lost[n]);
         }

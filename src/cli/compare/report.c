@@ -150,10 +150,10 @@ static void facets_table(const lrcs_host_judgement *job, const lrcs_host_kit_fac
         const lrcs_host_kit_facet *off = &facets->worst[i];
         printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
                "sigma\n",
-               job->kit.scene[off->one->scene].name, off->one->attitude, (unsigned long)off->facet,
-               material_of(job, off->one, off->facet),
-               off->one->records[off->facet].cos_theta < 0.0 ? ", its back" : "", off->answer_m2,
-               off->truth_m2, off->sigma_m2);
+               job->kit.scene[off->kit_case->scene].name, off->kit_case->attitude,
+               (unsigned long)off->facet, material_of(job, off->kit_case, off->facet),
+               off->kit_case->records[off->facet].cos_theta < 0.0 ? ", its back" : "",
+               off->answer_m2, off->truth_m2, off->sigma_m2);
     }
 }
 
@@ -172,10 +172,12 @@ static void items_print(const lrcs_host_judgement *job, const lrcs_host_kit_item
     for (uint32_t i = 0; i < items->named; i++) {
         const lrcs_host_kit_image *image = &items->image[i];
         printf("             %s %s: %.1f %% of the pixels agree\n",
-               job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
+               job->kit.scene[image->kit_case->scene].name, image->kit_case->attitude,
+               100.0 * image->agree_share);
         for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP && image->lost[n] > 0; n++) {
             printf("             facet %lu (%s): %lu of its pixels show something else\n",
-                   (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
+                   (unsigned long)image->facet[n],
+                   material_of(job, image->kit_case, image->facet[n]),
                    (unsigned long)image->lost[n]);
         }
     }

@@ -99,7 +99,8 @@ static void facet_compare(facets_read *facets, const lrcs_host_kit_case *one, ui
     double raster = outlines * lrcsi_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
     double allowed =
         job->grade == LRCS_HOST_GRADE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
-    lrcs_host_kit_facet off = {.one = one, .facet = facet, .answer_m2 = answer, .truth_m2 = truth};
+    lrcs_host_kit_facet off = {
+        .kit_case = one, .facet = facet, .answer_m2 = answer, .truth_m2 = truth};
     if (fabs(answer - truth) <= allowed) {
         return;
     }

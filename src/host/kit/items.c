@@ -119,7 +119,7 @@ static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
         return LRCS_OK;
     }
     lrcs_host_kit_image *image = &found->image[found->named++];
-    *image = (lrcs_host_kit_image){.one = one, .agree = first};
+    *image = (lrcs_host_kit_image){.kit_case = one, .agree_share = first};
     uint32_t *lost = calloc((size_t)facets + 1, sizeof *lost);
     if (!lost) {
         return lrcsi_host_out_of_memory(error);
