@@ -138,7 +138,7 @@ operations: $(JOINED)/lrcs.c
 
 # The core against MISRA C:2012 (needs cppcheck): every deviation has its reason in test/misra.md.
 misra:
-	sh test/misra.sh
+	sh test/misra.sh $(BUILD)
 
 # The core's tests and a digest of its results on other machines under qemu-user, with gcc and clang,
 # at -O0, -O2 and -O3: PORTABLE="MACHINES=s390x COMPILERS=gcc LEVELS=2" runs one of them.
