@@ -219,7 +219,7 @@ static void errors_of_terms_cover_errors_of_normals(void **state)
     (void)state;
     static const double angle[] = {0, 1e-12, 1e-6, 1e-3, 0.1, 0.5, 1, 1.4, 1.57};
     static const double size[] = {0x1p-10, 0x1p-20, 0x1p-40};
-    static const lrcs_brdf brdf[] = {{1, 1, 0.05, 0}, {1, 1, 0.5, 2}, {1, 1, 3, 50}};
+    static const lrcs_brdf brdf[] = {{1, 1, 0.01, 0}, {1, 1, 0.5, 2}, {1, 1, 3, 50}};
     for (int i = 0; i < 81; i++) {
         const lrcs_brdf *b = &brdf[i % 3];
         double p = sin(angle[i / 9]);
