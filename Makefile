@@ -91,7 +91,8 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 	@sh test/run.sh $(TOOL) $(SH_TESTS) $(TESTS)
 
 asan: cmocka
-	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g1" TEST_OPT="-O0 -g1" CFLAGS="$(SANITIZE)" \
+	    LDLIBS="$(SANITIZE) $(THREADS) -lm" test
 SANITIZE = -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 # The threads under ThreadSanitizer.
