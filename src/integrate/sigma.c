@@ -191,9 +191,6 @@ int lrcsi_sigma_stages(const lrcsi_sigma_request *request, const lrcs_prepared *
         }
         lrcsi_attempts_end(run, &attempts);
     }
-    if (attempts.memory_short && run->outcome.method == LRCS_METHOD_ZBUFFER) {
-        run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK; /* a raster instead of clipping */
-    }
     lrcsi_sigma_release_decisions(run, &attempts);
     return status;
 }
