@@ -91,7 +91,8 @@ test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scalin
 	@sh test/run.sh $(TOOL) $(SH_TESTS) $(TESTS)
 
 asan: cmocka
-	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
+	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g1" TEST_OPT="-O0 -g1" CFLAGS="$(SANITIZE)" \
+	    LDLIBS="$(SANITIZE) $(THREADS) -lm" test
 SANITIZE = -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 # The threads under ThreadSanitizer.
@@ -138,7 +139,7 @@ operations: $(JOINED)/lrcs.c
 
 # The core against MISRA C:2012 (needs cppcheck): every deviation has its reason in test/misra.md.
 misra:
-	sh test/misra.sh
+	sh test/misra.sh $(BUILD)
 
 # The core's tests and a digest of its results on other machines under qemu-user, with gcc and clang,
 # at -O0, -O2 and -O3: PORTABLE="MACHINES=s390x COMPILERS=gcc LEVELS=2" runs one of them.

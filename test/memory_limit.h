@@ -51,21 +51,34 @@ static int memory_limit_at(const memory_case *s, unsigned char *memory, size_t s
     return status;
 }
 
-/* Tries every size; of those that need much, the first and last 1024 sizes and every 127th between.
-   If a size suffices, so does every larger one. */
+/* One call; once a size suffices, every larger one does, and `need`. Returns 1 if it suffices. */
+static int memory_limit_serves(const memory_case *s, unsigned char *memory, size_t size, int served)
+{
+    int status = memory_limit_at(s, memory, size);
+    if (status != LRCS_OK && (served || size == s->need)) {
+        fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
+        fail();
+    }
+    return status == LRCS_OK;
+}
+
+/* Tries every size; of those that need much, the first 1024 sizes, the last 128, every 127th
+   between, and all of those between which one suffices first. */
 static void check_memory_limit(const memory_case *s)
 {
     unsigned char *memory = malloc(s->need + MEMORY_CANARY);
     assert_non_null(memory);
     int served = 0;
-    for (size_t size = 0; size <= s->need;) {
-        int status = memory_limit_at(s, memory, size);
-        if (status != LRCS_OK && (served || size == s->need)) {
-            fprintf(stderr, "%s: not served by %zu of %zu bytes\n", s->name, size, s->need);
-            fail();
+    size_t step = 1;
+    for (size_t size = 0; size <= s->need; size += step) {
+        int serves = memory_limit_serves(s, memory, size, served);
+        if (serves && !served) {
+            for (size_t less = size + 1 - step; less < size; less++) {
+                served = memory_limit_serves(s, memory, less, served);
+            }
         }
-        served |= status == LRCS_OK;
-        size += size < 1024 || size + 1024 > s->need ? 1 : 127;
+        served = serves;
+        step = size < 1024 || size + 128 > s->need ? 1 : 127;
     }
     assert_true(served);
     free(memory);

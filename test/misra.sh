@@ -3,16 +3,21 @@
 # Checks the core against MISRA C:2012, as far as cppcheck's addon does, and prints how often each rule
 # is violated. Fails on a rule that test/misra.md does not list as a deviation, and on a listed one
 # that is not violated.
-# usage: misra.sh    (in the root)
+# usage: misra.sh BUILD    (in the root; what the addon writes for each file goes under BUILD)
 if ! command -v cppcheck >/dev/null; then
     echo 'misra needs cppcheck; install it with: sudo apt-get install cppcheck' >&2
     exit 1
 fi
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
+# without the results of a former run, which cppcheck would reuse
+dumps=$1/misra
+rm -rf "$dumps"
+mkdir -p "$dumps" || exit 1
 
 cppcheck --quiet -j "$(getconf _NPROCESSORS_ONLN)" --std=c11 --addon=misra --template='{file}:{line} {id}' \
-    -Iinclude -Isrc src/base src/mesh src/optics src/scene src/view src/visibility src/integrate >"$work/all" 2>&1
+    --cppcheck-build-dir="$dumps" -Iinclude -Isrc \
+    src/base src/mesh src/optics src/scene src/view src/visibility src/integrate >"$work/all" 2>&1
 # a line of a header is reported once for every file that includes it
 sed -n 's/ misra-c2012-/ /p' "$work/all" | LC_ALL=C sort -u >"$work/found"
 if [ ! -s "$work/found" ]; then

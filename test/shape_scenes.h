@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Random scenes of curved shapes among others, by families: anywhere, on a lattice, in contact,
    flush, nested with thin gaps, piercing, with a glint on a shadow's edge, scaled differently along
-   the axes. And directions to look from that spare none of them. */
+   the axes, of walls that share a rim. And directions to look from that spare none of them. */
 #ifndef TEST_SHAPE_SCENES_H
 #define TEST_SHAPE_SCENES_H
 
@@ -23,11 +23,13 @@ enum shape_scene_family {
     SHAPE_SCENE_PIERCED,
     SHAPE_SCENE_GLINT,
     SHAPE_SCENE_STRETCHED,
+    SHAPE_SCENE_JOINED,
     SHAPE_SCENE_FAMILIES
 };
 
 static const char *const shape_scene_name[SHAPE_SCENE_FAMILIES] = {
-    "anywhere", "lattice", "resting", "flush", "nested", "pierced", "glint on edge", "stretched"};
+    "anywhere", "lattice",       "resting",   "flush", "nested",
+    "pierced",  "glint on edge", "stretched", "joined"};
 
 /* `aim` is where a glint meets an edge, or the light runs along a wall. */
 typedef struct shape_scene {
@@ -331,6 +333,81 @@ static void fill_stretched(shape_scene *s)
     scale_axes(s);
 }
 
+/* A wall that rises from its rim of radius r at z = 0; of a kind, or LRCS_SHAPE_KINDS: of any. */
+static lrcs_recipe_part *put_wall(shape_scene *s, int kind, double r, double length)
+{
+    static const int any[] = {LRCS_SHAPE_DOME, LRCS_SHAPE_DOME,    LRCS_SHAPE_PARABOLOID,
+                              LRCS_SHAPE_CONE, LRCS_SHAPE_FRUSTUM, LRCS_SHAPE_CYLINDER};
+    kind = kind == LRCS_SHAPE_KINDS ? any[pick(6)] : kind;
+    double top = kind == LRCS_SHAPE_FRUSTUM ? r * between(0.3, 1.5) : r;
+    lrcs_recipe_part *part = put(s, kind, top, r, length);
+    part->shape.parts = pick(4) ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+    return part;
+}
+
+/* Turns a part as `of` does, after turning it over or not. */
+static void turn_over_by(lrcs_recipe_part *part, int over, const double of[9])
+{
+    turn_by(part, of);
+    for (int i = 0; i < 6 && over; i++) {
+        part->place.rotate[i / 2][1 + i % 2] *= -1;
+    }
+}
+
+/* Walls that share a rim, of one material or two: one turned over, or both on the same side of it,
+   or a tube between two others. Their meshes share the vertices there if they are of the same kind,
+   or if the limit of facets divides them equally. Most are partly behind something at `aim`. */
+static void fill_joined(shape_scene *s)
+{
+    lrcs_recipe_part frame;
+    double of[9];
+    double r = 0.5 * length_of(1);
+    double length = length_of(1);
+    turn_by(&frame, quarter[pick(4)]);
+    if (pick(2)) {
+        turn_at_random(&frame);
+    }
+    for (int i = 0; i < 9; i++) {
+        of[i] = frame.place.rotate[i / 3][i % 3];
+    }
+    lrcs_recipe_part *first = put_wall(s, pick(2) ? LRCS_SHAPE_DOME : LRCS_SHAPE_KINDS, r, length);
+    turn_over_by(first, 0, of);
+    int kind = first->shape.kind;
+    switch (pick(4)) {
+    case 0: /* another one of its kind, turned over */
+        turn_over_by(put_wall(s, kind, r, length), 1, of);
+        break;
+    case 1: /* another one, turned over */
+        turn_over_by(put_wall(s, LRCS_SHAPE_KINDS, r, length_of(1)), 1, of);
+        break;
+    case 2: /* within it or about it */
+        kind = kind == LRCS_SHAPE_PARABOLOID ? LRCS_SHAPE_DOME : LRCS_SHAPE_PARABOLOID;
+        turn_over_by(put_wall(s, kind, r, length_of(1)), 0, of);
+        break;
+    default: /* a tube below it, and a wall at the other end of that */
+        turn_over_by(put_wall(s, LRCS_SHAPE_CYLINDER, r, length), 1, of);
+        lrcs_recipe_part *last = put_wall(s, pick(2) ? kind : LRCS_SHAPE_KINDS, r, length);
+        turn_over_by(last, 1, of);
+        move(last, -length * of[2], -length * of[5], -length * of[8]);
+    }
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        s->aim[k] = between(-1, 1);
+        square += s->aim[k] * s->aim[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        s->aim[k] /= sqrt(square);
+    }
+    if (pick(5)) {
+        double size = r * between(0.3, 1);
+        lrcs_recipe_part *front =
+            put(s, pick(2) ? LRCS_SHAPE_BOX : LRCS_SHAPE_SPHERE, size, size, size);
+        double far = 3 * (r + length);
+        move(front, far * s->aim[0] + r * between(-1, 1), far * s->aim[1] + r * between(-1, 1),
+             far * s->aim[2] + r * between(-1, 1));
+    }
+}
+
 /* --- scenes and directions -------------------------------------------------------------------- */
 
 static void shape_scene_dress(shape_scene *s)
@@ -365,6 +442,9 @@ static void shape_scene_make(shape_scene *s, int family)
         break;
     case SHAPE_SCENE_STRETCHED:
         fill_stretched(s);
+        break;
+    case SHAPE_SCENE_JOINED:
+        fill_joined(s);
         break;
     default:
         fill_at_random(s, family == SHAPE_SCENE_LATTICE, family == SHAPE_SCENE_PIERCED ? 0.1 : 1);

@@ -58,7 +58,7 @@ static double inside(const lrcs_brdf *brdf, double height, const double d[3])
             double t = (i + 0.5 + half * 0.5 * 0.57735026918962576451) / n;
             double rho = RADIUS * t * (2 - t); /* closer at the rim, where G may have a root */
             double ring = 0;
-            for (int k = 0; k < n; k++) {
+            for (int k = 0; k < n / 2; k++) { /* the other half is the same */
                 double phi = 2 * PI * (k + 0.5) / n;
                 double x[3] = {rho * cos(phi), rho * sin(phi), 0};
                 double g[3];
@@ -71,7 +71,7 @@ static double inside(const lrcs_brdf *brdf, double height, const double d[3])
                                 sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
                 ring += reflect(brdf, cosine) / cosine;
             }
-            sum += ring * (2 * PI / n) * rho * (RADIUS * (2 - 2 * t)) * 0.5 / n;
+            sum += 2 * ring * (2 * PI / n) * rho * (RADIUS * (2 - 2 * t)) * 0.5 / n;
         }
     }
     return -d[2] * sum;
@@ -88,7 +88,7 @@ static double outside(const lrcs_brdf *brdf, double height, const double d[3])
         double rho = height > 0 ? RADIUS * t : RADIUS * sqrt((1 - t) * (1 + t));
         double area = height > 0 ? RADIUS * rho * hypot(1, 2 * height * rho / (RADIUS * RADIUS))
                                  : RADIUS * RADIUS;
-        for (int k = 0; k < n; k++) {
+        for (int k = 0; k < n / 2; k++) {
             double phi = 2 * PI * (k + 0.5) / n;
             const double x[3] = {rho * cos(phi), rho * sin(phi), RADIUS * t};
             double g[3];
@@ -98,7 +98,7 @@ static double outside(const lrcs_brdf *brdf, double height, const double d[3])
             sum += cosine > 0 ? reflect(brdf, cosine) * area : 0;
         }
     }
-    return sum * (2 * PI / n) * 0.5 / n;
+    return 2 * sum * (2 * PI / n) * 0.5 / n;
 }
 
 /* The shape, and a box so far to the side that it hides nothing. */

@@ -113,11 +113,14 @@ static void values_are_those_of_the_definition(void **state)
 {
     (void)state;
     int count = 0;
+    lrcs_scene scene;
+    lrcsi_view view;
     for (int i = 0; i < 300; i++) {
-        lrcs_scene scene;
         lrcsi_round_point point;
         const lrcs_brdf brdf = {between(0, 1), between(0, 1), between(0.1, 1), between(0, 4)};
-        lrcsi_view view = placed_view(kinds[i % 3], &scene);
+        if (i % 10 == 0) { /* points of 30 views, which take longer */
+            view = placed_view(kinds[i / 10 % 3], &scene);
+        }
         lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
         if (!some_point(&view, &s, &point)) {
             continue;
@@ -139,11 +142,14 @@ static void the_bound_holds_at_complex_points(void **state)
     (void)state;
     int count = 0;
     double closest = 0;
+    lrcs_scene scene;
+    lrcsi_view view;
     for (int i = 0; i < 600; i++) {
-        lrcs_scene scene;
         lrcsi_round_point point;
         const lrcs_brdf brdf = {i % 2, i % 4 < 2, between(0.1, 1), between(0, 4)};
-        lrcsi_view view = placed_view(kinds[i % 3], &scene);
+        if (i % 10 == 0) {
+            view = placed_view(kinds[i / 10 % 3], &scene);
+        }
         lrcsi_round_surface s = lrcsi_round_surface_make(&view, 0, 1);
         if (!some_point(&view, &s, &point)) {
             continue;

@@ -286,6 +286,31 @@ static void two_plates_add_what_is_visible_of_each(void **state)
     assert_int_equal(got.seen, 1u << LRCS_EFFECT_GLINT | 1u << LRCS_EFFECT_DIFFUSE);
 }
 
+/* Without visible areas, a packet computes its own. Visible areas that it is given have the relative
+   error of projected areas, which the bound includes. */
+static void the_error_of_given_areas_is_in_the_bound(void **state)
+{
+    (void)state;
+    summed s;
+    scene_start(&scene);
+    scene_material(&scene, 1, 0.25, 0.2, 0.5);
+    scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0});
+    prepare(LRCS_METHOD_FACET, &s);
+    s.plan.grazing_cos = 0;
+    const lrcsi_areas none = {.visible = NULL};
+    const lrcsi_total computed = sum_up(&s, &none);
+    prepare(LRCS_METHOD_EXACT, &s);
+    for (uint32_t f = 0; f < 2; f++) {
+        area[f] = lrcsi_visible_area_exact(lrcsi_view_projected(&s.view, f));
+    }
+    const lrcsi_areas areas = {.visible = area};
+    const lrcsi_total given = sum_up(&s, &areas);
+    double error = lrcsi_view_incidence(&s.view, 0).error;
+    assert_true(error > 0);
+    check_most(error * (given.glint + given.diffuse), given.rounding - computed.rounding);
+}
+
 /* For every facet alone, so that no other bound hides a difference. */
 static void a_facet_in_a_packet_and_alone_adds_the_same_within_both_bounds(void **state)
 {
@@ -414,6 +439,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_facets_with_any_areas_follow_the_plain_loop),
         cmocka_unit_test(two_plates_add_what_is_visible_of_each),
+        cmocka_unit_test(the_error_of_given_areas_is_in_the_bound),
         cmocka_unit_test(a_facet_in_a_packet_and_alone_adds_the_same_within_both_bounds),
         cmocka_unit_test(answers_stand_for_areas),
         cmocka_unit_test(without_areas_all_is_visible_and_what_may_be_hidden_is_a_bound),

@@ -174,9 +174,10 @@ static int edge_uses(const lrcs_mesh *mesh, const double *a, const double *b)
 {
     int uses = 0;
     for (uint32_t i = 0; i < mesh->facet_count; i++) {
-        for (int k = 0; k < 3 && facet_area(mesh, i) > 0.0; k++) {
+        for (int k = 0; k < 3; k++) {
             uses += memcmp(corner(mesh, i, k), a, sizeof(lrcs_point)) == 0 &&
-                    memcmp(corner(mesh, i, k + 1), b, sizeof(lrcs_point)) == 0;
+                    memcmp(corner(mesh, i, k + 1), b, sizeof(lrcs_point)) == 0 &&
+                    facet_area(mesh, i) > 0.0;
         }
     }
     return uses;
@@ -521,7 +522,7 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
    same map. */
 static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_zones)
 {
-    enum { STEPS = 120 };
+    enum { STEPS = 60 };
     const lrcs_divisions divisions = {around, along, level_zones};
     lrcs_mesh mesh = make_zones(shape, around, along, level_zones, NULL);
     lrcsi_revolution body = lrcsi_revolution_make(shape, &divisions);

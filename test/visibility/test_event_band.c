@@ -12,12 +12,13 @@ static lrcsi_event_bands bands;
 
 enum { BALL, PLATE };
 
-/* The ball is at the origin, the plate 2 below it. */
-static void look_at_ball(double x, double y, double z)
+/* The ball is at the origin, the plate `below` at a point 2 below the plane z = 0. */
+static void look_at_ball_above(const lrcs_shape *below, const double at[2], double x, double y,
+                               double z)
 {
     static const double upright[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const lrcs_prepared *prepared =
-        pair_prepare(&ball, &plate, (const double[3]){0, 0, -2}, upright, 0, &scene, &work);
+        pair_prepare(&ball, below, (const double[3]){at[0], at[1], -2}, upright, 0, &scene, &work);
     lrcs_pose pose;
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
@@ -27,6 +28,11 @@ static void look_at_ball(double x, double y, double z)
     lrcs_work room = lrcs_work_make(memory, need);
     assert_int_equal(lrcsi_event_bands_make(&view, NULL, &room, &bands), LRCS_OK);
     assert_true(bands.events.count > 8);
+}
+
+static void look_at_ball(double x, double y, double z)
+{
+    look_at_ball_above(&plate, (const double[2]){0, 0}, x, y, z);
 }
 
 /* The areas between the outline of the true ball, a circle, and that of its facets: outside the
@@ -121,6 +127,46 @@ static void bands_contain_what_lies_between_outlines(void **state)
     }
 }
 
+/* From above, the outline of the true ball is a circle, and that of its facets a polygon of the same
+   area. Plates so small that they lie between the two: beside a corner of the polygon, outside the
+   circle, and beside the middle of its side, inside the circle. All of the first is gained, all of
+   the second is lost. */
+static void all_of_a_plate_between_the_outlines_is_gained_or_lost(void **state)
+{
+    (void)state;
+    const double radius = 0.5;
+    look_at_ball(0, 0, 1);
+    uint32_t e = 0;
+    while (bands.events.part[e] != BALL) {
+        e++;
+    }
+    const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[e]];
+    double unit = ldexp(1, view.prepared->exponent);
+    const double *a = view.prepared->vertex[edge->low].x;
+    const double *b = view.prepared->vertex[edge->high].x;
+    for (int lost = 0; lost < 2; lost++) {
+        double at[2] = {unit * a[0], unit * a[1]};
+        if (lost) {
+            at[0] = 0.5 * unit * (a[0] + b[0]);
+            at[1] = 0.5 * unit * (a[1] + b[1]);
+        }
+        double from = hypot(at[0], at[1]); /* the axis */
+        double between = fabs(from - radius);
+        assert_int_equal(from < radius, lost);
+        at[0] *= 0.5 * (from + radius) / from;
+        at[1] *= 0.5 * (from + radius) / from;
+        lrcs_shape small = {.kind = LRCS_SHAPE_PLATE, .size = {0.1 * between, 0.1 * between}};
+        look_at_ball_above(&small, at, 0, 0, 1);
+        for (int aligned = 0; aligned < 2; aligned++) {
+            double gain;
+            double loss;
+            band_areas(aligned ? LRCSI_ALIGNED : LRCSI_MAPPED, &gain, &loss);
+            double found = lrcsi_prepared_area(view.prepared, lost ? loss : gain);
+            check_most(small.size[0] * small.size[1], found * (1 + 1e-9));
+        }
+    }
+}
+
 /* The sides of all facets of the plate that are near an event edge. */
 static void check_sides(int near_diagonal)
 {
@@ -172,6 +218,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_contain_what_lies_between_outlines),
+        cmocka_unit_test(all_of_a_plate_between_the_outlines_is_gained_or_lost),
         cmocka_unit_test(an_event_edge_is_near_the_sides_that_its_shadow_meets),
         cmocka_unit_test(what_is_behind_has_no_band),
     };
