@@ -80,6 +80,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_terms)));
         need = lrcsi_work_add(need, lrcsi_round_rim_need(prepared));
     }
+    if (prepared->proximity.reach) {
+        need = lrcsi_work_add(
+            need, lrcsi_work_bytes(prepared->scene->part_count, sizeof(lrcsi_flat_face)));
+    }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
     need = lrcsi_work_add(need, lrcsi_masked_band_need(prepared));
@@ -116,12 +120,16 @@ static int run_allocate(lrcsi_sigma *run)
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
     run->round_terms_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->round_terms_memory) : NULL;
+    int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;
+    run->face_memory =
+        faces ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *run->face_memory) : NULL;
     run->curve_terms =
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
     return (run->visible || !areas) &&
                    ((run->moment_memory && run->corrected && run->round_terms_memory) ||
                     !moments) &&
+                   (run->face_memory || !faces) &&
                    ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;

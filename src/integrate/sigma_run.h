@@ -55,8 +55,10 @@ typedef struct lrcsi_sigma {
     unsigned char *corrected;    /* as in lrcsi_total_details */
     lrcsi_round_terms *round_terms_memory; /* [facet_count]; NULL: pieces are not wanted */
     const lrcsi_round_terms *round_terms;  /* as in lrcsi_areas */
-    lrcsi_curve_terms *curve_terms;        /* [facet_count]; NULL: all normals are flat */
-    lrcsi_cubature_cell *stack;            /* NULL: all normals are flat */
+    lrcsi_flat_face *face_memory;   /* [part_count]; NULL: no margins on flat faces are wanted */
+    const lrcsi_flat_face *face;    /* as in lrcsi_areas */
+    lrcsi_curve_terms *curve_terms; /* [facet_count]; NULL: all normals are flat */
+    lrcsi_cubature_cell *stack;     /* NULL: all normals are flat */
     lrcsi_outcome outcome;
 } lrcsi_sigma;
 

@@ -56,7 +56,7 @@ static const lrcsi_masked_band *run_band(const lrcsi_sigma *run)
 
 lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms};
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms, run->face};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
     lrcsi_progress_report(run->request.options->progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
@@ -147,8 +147,11 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
         }
     }
     run->round_terms = NULL;
+    run->face = NULL;
     if (run_band(run)) {
         lrcsi_masked_band_find(&run->masked, run->visible, meter, run->work);
+        lrcsi_flat_faces_make(&run->masked, run->visible, run->face_memory);
+        run->face = run->face_memory;
     }
     if (run_band(run) && run->moment) {
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, run->visible,

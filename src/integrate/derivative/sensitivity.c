@@ -162,7 +162,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
                          lrcsi_response *response)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment,
-                               as_sigma ? run->round_terms : NULL};
+                               as_sigma ? run->round_terms : NULL, run->face};
     const lrcsi_view *view = &run->view;
     const lrcsi_plan *plan = &run->plan;
     const lrcsi_clear_shapes *clear = &run->clear;
@@ -181,6 +181,8 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         double fraction = visible_fraction(&areas, run, f, &incidence);
+        const double margin = lrcsi_flat_face_area(areas.face, view, f);
+        fraction += margin != 0 ? margin / incidence.projected : 0;
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
         const double u = incidence.tan2;

@@ -6,6 +6,7 @@
 #define LRCSI_AREAS_H
 
 #include "integrate/plan/plan.h"
+#include "integrate/wall/flat_face.h"
 #include "integrate/wall/round_terms.h"
 #include "visibility/base/visible_area.h"
 #include "visibility/uniform/query.h"
@@ -17,6 +18,7 @@ typedef struct lrcsi_areas {
     const unsigned char *answer;
     const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
     const lrcsi_round_terms *round_terms; /* what facets on curved walls add; NULL: not known */
+    const lrcsi_flat_face *face; /* [part_count]: margins on flat faces; NULL: none are used */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */

@@ -182,6 +182,29 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
     }
 }
 
+/* Adds what the margins of a face change, if they count to this facet. The true reflectance differs
+   from the facet's within the tessellation error. */
+static void add_face_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
+{
+    const double area = lrcsi_flat_face_area(run->areas->face, run->view, facet);
+    if (area == 0) {
+        return;
+    }
+    const double sign = area < 0 ? -1 : 1;
+    const lrcsi_visible_area size = lrcsi_visible_area_exact(fabs(area));
+    const lrcsi_facet_terms terms =
+        lrcsi_facet_terms_make(run->view, run->plan, facet, incidence, &size, &run->patches);
+    lrcsi_sum_add(&run->sums.glint, sign * terms.glint);
+    lrcsi_sum_add(&run->sums.diffuse, sign * terms.diffuse);
+    run->sums.rounding += terms.rounding;
+    if (run->details.records) {
+        const lrcs_prepared *p = run->view->prepared;
+        run->details.records[facet].sigma_m2 +=
+            sign * lrcsi_prepared_area(p, terms.glint + terms.diffuse);
+        run->details.records[facet].sigma_glint_m2 += sign * lrcsi_prepared_area(p, terms.glint);
+    }
+}
+
 /* Adds the tessellation error of a facet: the error of replacing curved shapes by facets, and the
    correction that goes with it. A facet with curved normals adds only the effect of differences in
    visibility within the proximity band; clear shapes have no such error. */
@@ -197,9 +220,10 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
         return;
     }
     if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {
-        const lrcsi_tessellation_input in = {run->view, run->plan, run->areas->visible,
-                                             run->areas->moment, run->band};
+        const lrcsi_tessellation_input in = {run->view,          run->plan, run->areas->visible,
+                                             run->areas->moment, run->band, run->areas->face};
         lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
+        add_face_margin(run, facet, incidence);
         if (error.corrected) {
             add_correction(run, facet, error.glint, error.diffuse);
         }

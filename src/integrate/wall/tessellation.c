@@ -60,6 +60,16 @@
    since the bound of a region is that of both together; there the sums of their bounds are
    compared.
 
+   On a flat face whose margins are used (integrate/wall/flat_face.h) v and w are compared where V
+   and U overlap, instead of by the map: visibility/proximity/event_band.c, 6. F is constant on V,
+   so the integrals over all facets f of the face satisfy
+       T - M = sum of Int_f (F - F_i) w  +  F (Int_V v - Int_U w),
+   where the last difference is the area of the margins, up to its error, and for each facet at most
+   S g above and S l below, g and l of aligned points. The area of the margins is summed with F_i of
+   one facet. The first term, and the change of areas by rounding, are at most (1 + a) S sup |F -
+   F_i| and S a (1 + a) sup F. A facet without bands (mismatch 0) is the same as by the map, since v
+   and w are constant on it and around it.
+
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
 #include "integrate/wall/tessellation.h"
@@ -118,6 +128,32 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
            lrcsi_deviation_make(brdf, cosine, incidence->tan2, bounds).value_max;
 }
 
+/* The error of a facet on a flat face whose margins are used, per unit of area. The margins count
+   to one facet of the face. What may be visible beyond a side of the face is not hidden of the
+   facet, so that what is hidden of a facet there does not limit its gain. */
+static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_t facet,
+                                     const lrcsi_incidence *incidence,
+                                     const lrcs_patch_bounds *bounds, lrcsi_patches *patches)
+{
+    const lrcs_prepared *p = in->view->prepared;
+    const lrcsi_proximity_band *band = in->band->whole;
+    const lrcsi_flat_face *face = &in->face[p->scene->facet_part[facet]];
+    const lrcsi_deviation d =
+        lrcsi_patch_deviation_make(in, facet, incidence, bounds, patches).of_f;
+    const double area_err = lrcsi_patch_area_err(p, facet, bounds);
+    const double point = (1 + area_err) * d.point;
+    const double value = (1 + area_err) * d.value_max;
+    const double hidden = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band).hidden;
+    const double most = lrcsi_face_margin_sides(in->view, facet) != 0 ? HUGE_VAL : hidden;
+    double either = point + area_err * value;
+    if (facet == face->facet) {
+        const double projected = incidence->projected * (1 - incidence->error);
+        either += (value * face->error + point * fabs(face->area)) / projected;
+    }
+    return (lrcsi_tessellation){either + value * fmin(most, band->gain_aligned[facet]),
+                                either + value * band->loss_aligned[facet], 0, 0, 0};
+}
+
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     for (uint32_t i = 0; i < p->scene->part_count && plan->fronts_visible; i++) {
@@ -131,10 +167,11 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 
 /* 1. What the patch reflects from its other side, and what rounding shows of a closed part's
    inside;
-   2. facets and patches that are entirely hidden, or flat and certain: nothing more;
-   3. patches that are entirely visible and have a mean: its remainder;
-   4. the deviation of F over the patch, and the fractions of the facet that are gained and lost;
-   5. flat facets: those fractions times F; curved walls: lrcsi_wall_error. */
+   2. facets with bands, and that to which margins count, on a flat face whose margins are used;
+   3. facets and patches that are entirely hidden, or flat and certain: nothing more;
+   4. patches that are entirely visible and have a mean: its remainder;
+   5. the deviation of F over the patch, and the fractions of the facet that are gained and lost;
+   6. flat facets: those fractions times F; curved walls: lrcsi_wall_error. */
 lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, uint32_t facet,
                                             const lrcsi_incidence *incidence,
                                             lrcsi_patches *patches)
@@ -155,20 +192,28 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     if (state == LRCSI_PATCH_AWAY) {
         error.below = area * inside_error(in, facet, &brdf, incidence);
     }
-    if (is_certain && seen == 0 && (!is_curved || state == LRCSI_PATCH_HIDDEN)) { /* 2 */
+    if (lrcsi_flat_face_holds(in->face, view, facet) &&
+        (in->band->whole->mismatch[facet] > 0 ||
+         lrcsi_flat_face_area(in->face, view, facet) != 0)) { /* 2 */
+        const lrcsi_tessellation unit = face_error(in, facet, incidence, &bounds, patches);
+        error.above += area * unit.above;
+        error.below += area * unit.below;
+        return error;
+    }
+    if (is_certain && seen == 0 && (!is_curved || state == LRCSI_PATCH_HIDDEN)) { /* 3 */
         return error;
     }
     int partner = is_curved && in->band
                       ? lrcsi_patch_partner_state(view, facet, in->visible, in->band)
                       : state;
     if (is_curved && state == LRCSI_PATCH_VISIBLE && partner == LRCSI_PATCH_VISIBLE &&
-        is_certain) { /* 3 */
+        is_certain) { /* 4 */
         const lrcsi_patch *patch = lrcsi_patch_make(view, in->plan, &brdf, facet, patches);
         if (patch) {
             return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder, 0, 0, 0};
         }
     }
-    lrcsi_wall_facet at = {.facet = facet, /* 4 */
+    lrcsi_wall_facet at = {.facet = facet, /* 5 */
                            .bounds = bounds,
                            .area_err = lrcsi_patch_area_err(p, facet, &bounds),
                            .state = state,

@@ -4,6 +4,7 @@
 #ifndef LRCSI_WALL_ERROR_H
 #define LRCSI_WALL_ERROR_H
 
+#include "integrate/wall/flat_face.h"
 #include "integrate/wall/patch.h"
 #include "integrate/wall/patch_visibility.h"
 #include "optics/reflect.h"
@@ -18,6 +19,8 @@ typedef struct lrcsi_tessellation_input {
                                          are to be no corrections */
     const lrcsi_masked_band *band; /* NULL: every front is entirely visible, or the bounds of the
                                          visible areas include what could be hidden */
+    const lrcsi_flat_face *face;   /* [part_count]: margins on flat faces that the sum includes;
+                                      NULL: it includes none */
 } lrcsi_tessellation_input;
 
 /* Bounds on the error: the true value exceeds that of the facets, and the correction if there is

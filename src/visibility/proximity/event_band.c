@@ -71,7 +71,24 @@
    (integrate/wall/round_rim.h adds it), but a side is not free if such a rim is within k_P + 2 e_P
    of it in projection.
    These fractions are of the facet's projected area. They are used for facets on round walls of
-   which the laser may see the outside or the inside (integrate/wall/round_pieces.h). */
+   which the laser may see the outside or the inside (integrate/wall/round_pieces.h).
+
+   6. Flat faces. Let U be the polygon of a flat face of P (visibility/proximity/face_margin.h) and
+   V the true face, a disc of the same area in the same plane. With v = 1 where a point of V is
+   visible, and w = 1 where one of U is, on facets, the true shapes leave visible, in projection,
+       Int_V v - Int_U w = Int_(U and V) (v - w) + Int_(V without U) v - Int_(U without V) w
+   more. In the first integral points are aligned, and in the same place to within rounding: so 5
+   holds without a condition on the order of parts, except that (1) counts within the slack of P and
+   Q, as the pairs of scene/proximity.c have it, for facets of Q that are not in front or behind. It
+   is at most the sum of the fractions of aligned points; along an event edge it may instead be
+   known together for the whole face, because each point counts to the nearest event edge of Q only
+   (4): between the loss and the gain of outline.c or, where nothing else is near, with its sign.
+   The other two integrals are over regions along the sides of U, no wider than e_P, where V exceeds
+   the side or falls short of it. For each side the areas of both are equal, by symmetry. If
+   the side is free and no facet of a pair adjoins it, then v = w is constant there, and the two
+   integrals cancel: for a Q that is open and neither in front nor behind this is not proved, and
+   faces in scenes with such a Q are not used. Along any other side they differ by at most the area
+   of either region, below twice the side's length times e_P. */
 #include "visibility/proximity/event_band.h"
 
 #include <math.h>
@@ -165,8 +182,7 @@ static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_band_facet
     return openings == 0 || (openings == 1 && apart);
 }
 
-/* Is an event edge a rim inside the outline of its part? */
-static int rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
+int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
 {
     const uint32_t part = bands->events.part[event];
     const lrcsi_edge_facets on = lrcsi_edge_facets_of(bands->view, bands->events.edge[event], part);
@@ -179,7 +195,7 @@ static lrcsi_outline_areas event_areas(const lrcsi_event_bands *bands, uint32_t 
     const lrcsi_view *view = bands->view;
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
     const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
-    return rim_is_inside(bands, event)
+    return lrcsi_event_rim_is_inside(bands, event)
                ? (lrcsi_outline_areas){0, 0, 0}
                : lrcsi_outline_areas_make(outline, view->point[edge->low].x,
                                           view->point[edge->high].x, bands->events.side[event]);

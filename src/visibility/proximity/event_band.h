@@ -35,6 +35,9 @@ enum lrcsi_correspondence {
     LRCSI_ALIGNED /* the one with the same projection: event_band.c, 5 */
 };
 
+/* Is an event edge a rim inside the outline of its part? */
+int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event);
+
 /* Where to look for the event edges that may be near a facet. */
 lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
 

@@ -32,6 +32,10 @@
      0 <= -depth <= -tangents(t) + sqrt(2) delta.
    The areas of these two regions are integrals over t of piecewise linear functions.
 
+   3. Signed area. The depth of the boundary of K is a convex function of t, where K reaches over
+   the edge by 2 k at both ends. So it lies between the polygon and the tangents of 2, and its
+   integral over 0 <= t <= L between the integrals of these two.
+
    The points q_j are support points: those of B that are farthest in a direction of the view plane.
    Their tangents are perpendicular to that direction. Here these directions are turned from the
    edge's outward normal to either side until the point is 2 k beyond the end of the edge. */
@@ -49,6 +53,8 @@
    Heuristic: any number gives bounds, more of them narrower ones. */
 #define POINTS_SIDE 4
 #define POINTS      (2 * POINTS_SIDE + 1)
+/* The same for signed areas, of which the error falls with the square of this number. */
+#define MARGIN_POINTS_SIDE 8
 /* Steps of the bisection for the largest slope; heuristic likewise. */
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
@@ -240,20 +246,31 @@ static int areas_add(const outline_edge *edge, const outline_point *p, const out
     return 1;
 }
 
+/* The coordinates along an edge. Returns 0 if it cannot be used. */
+static int outline_edge_make(const lrcsi_outline *o, const double a[3], const double b[3], int side,
+                             outline_edge *edge)
+{
+    const double ab[2] = {b[0] - a[0], b[1] - a[1]};
+    *edge = (outline_edge){.outline = o, .a = a};
+    edge->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
+    if (!o->known || side == 0 || !(edge->length > LENGTH_MIN * o->k)) {
+        return 0;
+    }
+    edge->along[0] = ab[0] / edge->length;
+    edge->along[1] = ab[1] / edge->length;
+    edge->outward[0] = side * edge->along[1];
+    edge->outward[1] = -side * edge->along[0];
+    return 1;
+}
+
 lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
                                              const double b[3], int side)
 {
     const lrcsi_outline_areas unknown = {HUGE_VAL, HUGE_VAL, 0};
-    outline_edge edge = {.outline = o, .a = a};
-    const double ab[2] = {b[0] - a[0], b[1] - a[1]};
-    edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!o->known || side == 0 || !(edge.length > LENGTH_MIN * o->k)) {
+    outline_edge edge;
+    if (!outline_edge_make(o, a, b, side, &edge)) {
         return unknown;
     }
-    edge.along[0] = ab[0] / edge.length;
-    edge.along[1] = ab[1] / edge.length;
-    edge.outward[0] = side * edge.along[1];
-    edge.outward[1] = -side * edge.along[0];
     double before = slope_reaching(&edge, -1, -2 * o->k);
     double after = slope_reaching(&edge, 1, edge.length + 2 * o->k);
     lrcsi_outline_areas areas = {0, 0, 0};
@@ -277,4 +294,53 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     areas.gain = (areas.gain + err * areas.width) * LRCSI_OUTWARD_SUM;
     areas.loss = (areas.loss + err * areas.width) * LRCSI_OUTWARD_SUM;
     return areas;
+}
+
+/* Adds the integrals over the edge of the polygon and of the tangents from point p to point q. */
+static void integrals_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
+                          double *polygon, double *tangents)
+{
+    double low = lrcsi_max(p->t, 0);
+    double high = lrcsi_min(q->t, edge->length);
+    if (!(high > low)) {
+        return;
+    }
+    double chord = (q->depth - p->depth) / (q->t - p->t);
+    double turn = q->slope - p->slope;
+    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
+    meet = lrcsi_min(high, lrcsi_max(low, meet));
+    *polygon += (high - low) * (p->depth + chord * (0.5 * (low + high) - p->t));
+    *tangents += (meet - low) * (p->depth + p->slope * (0.5 * (low + meet) - p->t));
+    *tangents += (high - meet) * (q->depth + q->slope * (0.5 * (meet + high) - q->t));
+}
+
+lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],
+                                               const double b[3], int side)
+{
+    lrcsi_outline_margin margin = {0, HUGE_VAL, 0};
+    outline_edge edge;
+    if (!outline_edge_make(o, a, b, side, &edge)) {
+        return margin;
+    }
+    double before = slope_reaching(&edge, -1, -2 * o->k);
+    double after = slope_reaching(&edge, 1, edge.length + 2 * o->k);
+    double polygon = 0;
+    double tangents = 0;
+    outline_point last = outline_point_at(&edge, -before);
+    int reaches = last.t <= -2 * o->k;
+    for (int i = 1; i <= 2 * MARGIN_POINTS_SIDE && reaches; i++) {
+        double steps = (double)i / MARGIN_POINTS_SIDE - 1; /* -1 .. 1 */
+        outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
+        integrals_add(&edge, &last, &next, &polygon, &tangents);
+        last = next;
+    }
+    if (!reaches || last.t < edge.length + 2 * o->k) {
+        return margin;
+    }
+    double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
+    margin.width = LRCSI_ROOT_2_OUTWARD * (edge.length + 4 * o->k);
+    margin.area = 0.5 * (polygon + tangents);
+    margin.error =
+        (0.5 * lrcsi_max(0, polygon - tangents) + err * margin.width) * LRCSI_OUTWARD_SUM;
+    return margin;
 }

@@ -86,6 +86,7 @@
 #include <math.h>
 
 #include "base/disjoint.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "scene/proximity.h"
@@ -96,6 +97,7 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
+    uint32_t *on;               /* event: the part on whose face its margin lies, LRCS_NONE */
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
     lrcsi_marks considered;     /* events: those that the search for the facet has met */
     uint32_t *near;             /* events: those near the facet */
@@ -188,11 +190,15 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
+    const int on_face = lrcsi_face_margin_holds(job->view, facet);
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band near;
         if (band->free_sides[facet] != 0) {
             band->free_sides[facet] &=
                 (unsigned char)~lrcsi_event_sides(&job->bands, at, job->near[i]);
+        }
+        if (on_face && job->on[job->near[i]] == job->view->prepared->scene->facet_part[facet]) {
+            continue; /* its area is that of a margin */
         }
         if (lrcsi_event_band_make(&job->bands, at, job->near[i], LRCSI_ALIGNED, &near)) {
             band->gain_aligned[facet] += near.gain + near.unproved;
@@ -230,6 +236,23 @@ static int begin_aligned(band_job *job, uint32_t facet)
     return 1;
 }
 
+/* Adds the rim of a known flat face to the fractions of aligned points of one of its facets
+   (event_band.c, 6). Given: what of the facet is near facets of other parts. */
+static void add_face_rim(band_job *job, uint32_t facet, double near)
+{
+    lrcsi_proximity_band *band = job->band;
+    const lrcs_prepared *p = job->view->prepared;
+    const double reach = p->proximity.reach[p->scene->facet_part[facet]];
+    const unsigned sides = lrcsi_face_margin_sides(job->view, facet);
+    for (int k = 0; k < 3; k++) {
+        if (((sides >> k) & 1) != 0 && (near > 0 || ((band->free_sides[facet] >> k) & 1) == 0)) {
+            double rim = 4 * reach * lrcsi_proximity_longest(p, facet) / p->normal[facet].length;
+            band->gain_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
+            band->loss_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
+        }
+    }
+}
+
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
@@ -253,7 +276,14 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
-    const int aligned = begin_aligned(job, facet);
+    const double near = job->band->gain[facet]; /* so far: add_pairs */
+    const int on_face =
+        job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_margin_holds(view, facet);
+    const int aligned = on_face || begin_aligned(job, facet);
+    if (on_face) {
+        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = near;
+        job->band->free_sides[facet] = 7;
+    }
     if (!found) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
         job->band->gain_aligned[facet] = -1;
@@ -264,10 +294,14 @@ static void facet_fractions(band_job *job, uint32_t facet)
             add_aligned(job, &at, count);
         }
     }
+    if (found && on_face) {
+        add_face_rim(job, facet, near);
+    }
     if (reach > 0 && /* 3 */
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
+        job->band->gain_aligned[facet] = on_face ? -1 : job->band->gain_aligned[facet];
     }
 }
 
@@ -310,14 +344,16 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
+    need = lrcsi_work_add(need, lrcsi_face_margins_need(p));
     return lrcsi_work_add(need,
-                          lrcsi_work_blocks(2, lrcsi_proximity_events_most(p), sizeof(uint32_t)));
+                          lrcsi_work_blocks(3, lrcsi_proximity_events_most(p), sizeof(uint32_t)));
 }
 
 /* Computes all fractions:
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
-   2. facets near those of other parts (add_pairs);
+   2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
    4. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
       who uses them compares the areas that they stand for with the facet's. */
@@ -332,9 +368,11 @@ static int all_fractions(band_job *job, lrcs_work *work)
     job->considered.entry =
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
     job->near = lrcsi_work_take(work, job->bands.events.count, sizeof *job->near);
-    if (!job->considered.entry || !job->near) {
+    job->on = lrcsi_work_take(work, job->bands.events.count, sizeof *job->on);
+    if (!job->considered.entry || !job->near || !job->on) {
         return LRCS_E_MEMORY;
     }
+    lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->on);
     job->curved = lrcsi_box_empty();
     for (uint32_t i = 0; i < p->scene->part_count; i++) {
         const lrcsi_box *box = &job->bands.box[i];
@@ -396,12 +434,13 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.gain_aligned = lrcsi_work_take(work, facets, sizeof *m.gain_aligned);
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.free_sides = lrcsi_work_take_zero(work, facets, 1);
+    m.face = lrcsi_work_take_zero(work, view->prepared->scene->part_count, sizeof *m.face);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.free_sides && m.parts && m.region
+                         m.free_sides && m.face && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

@@ -8,6 +8,7 @@
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
+#include "visibility/proximity/face_margin.h"
 #include "visibility/uniform/classify.h"
 #include "visibility/uniform/query.h"
 
@@ -22,6 +23,9 @@ typedef struct lrcsi_proximity_band {
     double *loss_aligned; /* facet: the loss then, if the gain is known */
     unsigned char *free_sides; /* facet: bit k is 1 if no event edge of another part is near its
                                   side from corner k to k + 1 (event_band.c, 5) */
+    lrcsi_face_margin *face;   /* part: of the flat face that the laser sees of it. The facets of a
+                                  known face have a gain and a loss of aligned points, which do not
+                                  contain its margins (event_band.c, 6) */
     lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
     uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
 } lrcsi_proximity_band;

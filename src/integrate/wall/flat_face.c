@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/* Chooses the faces whose margins are used: those of which something is visible, and whose bound
+   becomes smaller. The areas of margins are found in visibility/proximity/face_margin.c; what they
+   change in the bound is proved in integrate/wall/tessellation.c. */
+#include "integrate/wall/flat_face.h"
+
+#include "base/range.h"
+
+/* Chooses for the face of a part. */
+static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
+                                        const lrcsi_visible_area *visible, uint32_t index)
+{
+    const lrcsi_proximity_band *whole = band->whole;
+    const lrcsi_view *view = whole->classification->view;
+    const lrcs_part *part = &view->prepared->scene->part[index];
+    const lrcsi_flat_face unused = {.facet = LRCS_NONE};
+    lrcsi_flat_face face = unused;
+    double most = 0;
+    double with = 2 * whole->face[index].error; /* the sum of both errors, gain and loss */
+    double without = 0;
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        if (!lrcsi_face_margin_holds(view, f)) {
+            continue;
+        }
+        if (whole->gain_aligned[f] < 0) {
+            return unused;
+        }
+        const double projected = lrcsi_view_projected(view, f);
+        const double hidden = lrcsi_max(0, projected - visible[f].low);
+        if (visible[f].low > most) {
+            most = visible[f].low;
+            face.facet = f;
+        }
+        without += lrcsi_min(hidden, projected * lrcsi_masked_gain(band, f)) +
+                   lrcsi_min(visible[f].high, projected * lrcsi_masked_loss(band, f));
+        with += lrcsi_min(hidden, projected * whole->gain_aligned[f]) +
+                lrcsi_min(visible[f].high, projected * whole->loss_aligned[f]);
+    }
+    face.area = whole->face[index].area;
+    face.error = whole->face[index].error;
+    return with < without ? face : unused;
+}
+
+void lrcsi_flat_faces_make(const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
+                           lrcsi_flat_face *face)
+{
+    const lrcs_scene *scene = band->whole->classification->view->prepared->scene;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        face[i] = (lrcsi_flat_face){.facet = LRCS_NONE};
+        if (band->whole->face[i].known) {
+            face[i] = flat_face_choose(band, visible, i);
+        }
+    }
+}
