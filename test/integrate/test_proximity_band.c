@@ -2,8 +2,9 @@
 /* The tessellation bound under shadowing on random scenes of curved shapes among others, from
    random directions. Against itself: a scene built coarse and fine has one truth, so both answers
    differ by no more than both bounds together. And against rays over the true shapes. usage:
-   test_proximity_band [SCENES SEED [RAYS [FINER]]]    (many more; with RAYS squared a surface,
-   against rays; FINER: shapes may have this many times as many facets) */
+   test_proximity_band [SCENES SEED [RAYS [FINER [FAMILY]]]]    (many more; with RAYS squared a
+   surface, against rays; FINER: shapes may have this many times as many facets; FAMILY: scenes of
+   one family, by its number) */
 #include <lrcs/lrcs.h>
 
 #include <stdlib.h>
@@ -263,10 +264,11 @@ static void rays_stay_within_the_bound(void **state)
     assert_int_equal(failures, 0);
 }
 
-static int many(unsigned long count, int side)
+/* only: a family, or -1 for all. */
+static int many(unsigned long count, int side, int only)
 {
     for (unsigned long i = 0; i < count; i++) {
-        int which = (int)(i % SHAPE_SCENE_FAMILIES);
+        int which = only < 0 ? (int)(i % SHAPE_SCENE_FAMILIES) : only % SHAPE_SCENE_FAMILIES;
         if (side > 0) {
             scene_cast(which, 2, side);
         } else {
@@ -425,7 +427,8 @@ int main(int argc, char **argv)
     if (argc > 2) {
         shape_scene_seed = strtoull(argv[2], NULL, 10);
         finer = argc > 4 ? (uint32_t)strtoul(argv[4], NULL, 10) : 1;
-        return many(strtoul(argv[1], NULL, 10), argc > 3 ? (int)strtol(argv[3], NULL, 10) : 0);
+        return many(strtoul(argv[1], NULL, 10), argc > 3 ? (int)strtol(argv[3], NULL, 10) : 0,
+                    argc > 5 ? (int)strtol(argv[5], NULL, 10) : -1);
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
