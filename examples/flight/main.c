@@ -86,9 +86,9 @@ int flight_main(void)
 }
 
 /* expected output, the bits of areas left out:
-cycle 1 status 0 stale 0 flags 0 steps 45845 sigma mm2 30579550 bound mm2 1218
-cycle 2 status 0 stale 0 flags 0 steps 39618 sigma mm2 1697630 bound mm2 183
-cycle 3 status 0 stale 0 flags 0 steps 37516 sigma mm2 7070238 bound mm2 159
+cycle 1 status 0 stale 0 flags 0 steps 46020 sigma mm2 30579550 bound mm2 1218
+cycle 2 status 0 stale 0 flags 0 steps 39735 sigma mm2 1697630 bound mm2 183
+cycle 3 status 0 stale 0 flags 0 steps 38033 sigma mm2 7070238 bound mm2 159
 cycle 4 status 0 stale 0 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44
 cycle 5 status -1 stale 1 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44
 cycle 6 status -6 stale 2 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44

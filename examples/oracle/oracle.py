@@ -8,7 +8,7 @@ usage: python3 oracle.py LIBLRCS.so [SCENE]    prints sigma of a scene around it
         truth = scene.run((0.0, -1.0, 0.2))
         assert abs(mine - truth.sigma_m2) <= 1e-4 * truth.sigma_m2 + truth.bound_m2
 
-The structs are those of lrcs/pose.h, run.h, scene.h, file.h and load.h of version 0.1."""
+The structs are those of lrcs/pose.h, run.h, scene.h, file.h and load.h of version 0.2."""
 import ctypes as C
 import math
 import sys
@@ -118,8 +118,8 @@ class Oracle:
         self.library = C.CDLL(path)
         self.library.lrcs_version.restype = C.c_char_p
         version = self.library.lrcs_version().decode()
-        if version.split(".")[:2] != ["0", "1"]:
-            raise ValueError(f"{path}: version {version}, where these structs are those of 0.1")
+        if version.split(".")[:2] != ["0", "2"]:
+            raise ValueError(f"{path}: version {version}, where these structs are those of 0.2")
 
     def scene(self, path: str, unit_m: float = 0.0) -> Scene:
         """A model file (unit_m: metres per unit; 0: metres), a scene file or "demo"."""

@@ -124,12 +124,13 @@ typedef struct lrcs_run_options {
      the proved parts of the bound (tessellation, rounding) leave of the tolerance;
    - clips if no raster suffices.
    An estimate is used only if all depths were decided, sigma is not 0, and no limit of steps left
-   anything open that it includes. An answer whose bound meets the tolerance does not count as accepted by estimate. These
-   rasters, also with method zbuffer, cost no more than drawing them: their samples prove nothing
-   about areas, so that the bound, still proved, includes all of each facet that could be visible or
-   hidden. For fewer than 1,024 facets, with curved normals, or if there are curved shapes among
-   other parts, the bound is tighter and costs more: there auto clips. With LRCS_ACCEPT_ANY auto
-   draws the coarsest of those rasters and accepts the result: no tolerance is missed. */
+   anything open that it includes. An answer whose bound meets the tolerance does not count as
+   accepted by estimate. These rasters, also with method zbuffer, cost no more than drawing them:
+   their samples prove nothing about areas, so that the bound, still proved, includes all of each
+   facet that could be visible or hidden. For fewer than 1,024 facets, with curved normals, or if
+   there are curved shapes among other parts, the bound is tighter and costs more: there auto clips.
+   With LRCS_ACCEPT_ANY auto draws the coarsest of those rasters and accepts the result: no
+   tolerance is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 #endif

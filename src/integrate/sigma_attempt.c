@@ -90,7 +90,7 @@ static lrcsi_attempt attempt_raster(const lrcsi_sigma *run, uint32_t size, const
    2. Clipping is tried before the raster if it is likely to take little longer, because the
       estimate of the raster may not be accepted; after an abandoned attempt it is tried again only
       with a larger limit, and not at all if memory was short. Any answer is accepted from a raster.
-      A raster after that does not count as a fallback: its answer is one that the options accept, or
+      A raster after that does not count as a fallback: either the options accept its answer, or
       unlimited clipping follows, for which memory is short as well.
    3. The raster; the first one is cheap. */
 static lrcsi_attempt preview_next(const lrcsi_sigma *run, lrcsi_attempts *attempts)

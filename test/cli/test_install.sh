@@ -28,7 +28,7 @@ elif command -v pkg-config >/dev/null; then
     # shellcheck disable=SC2086 # flags are words
     "${CC:-cc}" -o "$scratch/embed" examples/embed.c $flags -lm
     same a_program_links_by_pkg_config "$?" 0
-    same it_asks_for_the_soname "$(readelf -d "$scratch/embed" | grep -c 'liblrcs\.so\.0\.1]')" 1
+    same it_asks_for_the_soname "$(readelf -d "$scratch/embed" | grep -c 'liblrcs\.so\.0\.2]')" 1
     same shared_and_static_say_the_same "$(LD_LIBRARY_PATH=$at/lib "$scratch/embed")" "$("$build/examples/embed")"
 else
     skip a_program_links_by_pkg_config 'no pkg-config'
