@@ -194,7 +194,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     }
     if (lrcsi_flat_face_holds(in->face, view, facet) &&
         (in->band->whole->mismatch[facet] > 0 ||
-         lrcsi_flat_face_area(in->face, view, facet) != 0)) { /* 2 */
+         in->face[p->scene->facet_part[facet]].facet == facet)) { /* 2 */
         const lrcsi_tessellation unit = face_error(in, facet, incidence, &bounds, patches);
         error.above += area * unit.above;
         error.below += area * unit.below;

@@ -120,7 +120,8 @@ unsigned lrcsi_face_margin_sides(const lrcsi_view *view, uint32_t facet)
     return sides;
 }
 
-/* Is every open curved part in front of a facet's part or of its plane, or behind it? */
+/* Is every open curved part in front of a facet's part or of its plane, or behind it, for all of
+   the facet? */
 static int open_parts_are_ordered(lrcsi_part_orders *orders, uint32_t facet)
 {
     const lrcs_prepared *p = orders->view->prepared;
@@ -150,12 +151,13 @@ static int flat_face_make(lrcsi_part_orders *orders, uint32_t index, flat_face *
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         if (lrcsi_face_margin_holds(view, f)) {
             face->facet = f;
-            if (p->skip[f] || p->redundant[f] != LRCSI_NOT_REDUNDANT) {
+            if (p->skip[f] || p->redundant[f] != LRCSI_NOT_REDUNDANT ||
+                !open_parts_are_ordered(orders, f)) {
                 return 0;
             }
         }
     }
-    if (face->facet == LRCS_NONE || !open_parts_are_ordered(orders, face->facet)) {
+    if (face->facet == LRCS_NONE) {
         return 0;
     }
     const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
@@ -210,7 +212,6 @@ static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
     const uint32_t part = bands->events.part[event];
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
     const double side = bands->events.side[event];
-    double unproved;
     *m = (edge_margin){.event = event,
                        .edge = edge,
                        .outline = &bands->orders.outline[part],
@@ -222,8 +223,8 @@ static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!lrcsi_part_is_in_front(&bands->orders, job->face.facet, part, &m->contact, &unproved) ||
-        unproved > 0 || lrcsi_event_rim_is_inside(bands, event)) {
+    if (!lrcsi_outline_in_front(m->outline, view, job->face.facet, &m->contact) ||
+        lrcsi_event_rim_is_inside(bands, event)) {
         return 0;
     }
     m->err = m->contact + m->outline->err +
@@ -267,7 +268,8 @@ static double edge_turn(const edge_margin *m, const lrcsi_view *view, const lrcs
 }
 
 /* (c): may an event edge of another part, or (d) one of Q that is not next to the edge, come within
-   its slack of N? */
+   its slack of N? The slack includes the errors of both ends, wherever N lies on the face, and what
+   (e) leaves open of a part in front of the plane. */
 static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
 {
     lrcsi_event_bands *bands = job->bands;
@@ -275,8 +277,17 @@ static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
     const uint32_t part = bands->events.part[other];
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[other]];
     const int is_own = part == bands->events.part[m->event];
+    const lrcsi_outline *outline = &bands->orders.outline[part];
+    double contact = 0;
+    if (is_own || !outline->known ||
+        !lrcsi_outline_in_front(outline, bands->view, job->face.facet, &contact)) {
+        contact = 0;
+    }
     const double slack =
-        (is_own ? 0 : lrcsi_proximity_slack(p, job->face.part, part)) + m->err + m->width;
+        (is_own ? 0 : lrcsi_proximity_slack(p, job->face.part, part)) + contact +
+        LRCSI_EDGE_RECTANGLE_ERR * (lrcsi_view_point_err(bands->view->point[edge->low].x) +
+                                    lrcsi_view_point_err(bands->view->point[edge->high].x)) +
+        m->err + m->width;
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, job->face.facet, edge, slack);
     double unproved;
@@ -431,7 +442,8 @@ static int facet_may_cover(const lrcsi_view *view, uint32_t facet, const double 
     for (int k = 0; k < 3 && covers; k++) {
         const double *a = view->point[corner[k]].x;
         const double *b = view->point[corner[(k + 1) % 3]].x;
-        covers = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) > -1e-12;
+        covers =
+            (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) > -LRCSI_PROXIMITY_ERR;
     }
     return covers;
 }
