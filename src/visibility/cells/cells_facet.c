@@ -272,7 +272,7 @@ uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k)
                    : on.facet[on.facet[0] == facet];
     }
     return other < p->scene->facet_count && lrcsi_view_casts(view, other) &&
-                   view->facing[other] == view->facing[facet]
+                   lrcsi_event_continues(view->facing[facet], view->facing[other])
                ? other
                : LRCS_NONE;
 }

@@ -55,9 +55,9 @@ static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, 
     return 1;
 }
 
-/* Marks events among the plain edges (scene/neighbours.h): two facets continue each other across
-   such an edge if both can hide others and face the same way. A meshlet whose facets all have the
-   same value as those around it has none. */
+/* Marks events among the plain edges: those of facets of which at least one can hide others, and
+   that do not continue each other. A meshlet whose facets all have the same value as those around it
+   has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
@@ -68,7 +68,8 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
         for (uint32_t f = start; f < end && !alike; f++) {
             for (int k = 0; k < 3; k++) {
                 uint32_t other = p->neighbours.facet[f].corner[k];
-                if (other >= start && other < end && cast[f] != 0 && cast[other] != cast[f]) {
+                if (other >= start && other < end && cast[f] != 0 &&
+                    !lrcsi_event_continues(cast[f], cast[other])) {
                     mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
                 }
             }
@@ -79,7 +80,8 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
         for (uint32_t i = p->meshlets.meshlet[m].first_side;
              i < p->meshlets.meshlet[m + 1].first_side; i++) {
             const lrcsi_meshlet_side *side = &p->meshlets.side[i];
-            if (cast[side->facet] != cast[side->other]) {
+            if ((cast[side->facet] | cast[side->other]) != 0 &&
+                !lrcsi_event_continues(cast[side->facet], cast[side->other])) {
                 mark_edge_event(mark, side->edge);
             }
         }

@@ -49,6 +49,20 @@ static inline lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uin
     return on;
 }
 
+/* Does the edge bound a part, given its facets of that part: a rim? */
+static inline int lrcsi_edge_is_rim(const lrcsi_edge_facets *on)
+{
+    return on->count == 1;
+}
+
+/* Do two facets continue each other in the view across a plain edge (scene/neighbours.h), so that
+   it is no event edge? Given: of each the direction in which it faces if it can hide something,
+   otherwise 0. */
+static inline int lrcsi_event_continues(int cast, int other)
+{
+    return cast != 0 && other == cast;
+}
+
 enum lrcsi_edge_kind {
     LRCSI_EDGE_UNUSED, /* none of its facets can hide anything */
     LRCSI_EDGE_JOINS,  /* exactly two can, on opposite sides of it in projection */

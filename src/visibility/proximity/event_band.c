@@ -118,7 +118,7 @@ static int rim_may_face(const lrcsi_event_bands *bands, uint32_t event)
         return 1;
     }
     const lrcsi_edge_facets on = lrcsi_edge_facets_of(view, edge, part);
-    return on.count == 1 &&
+    return lrcsi_edge_is_rim(&on) &&
            lrcsi_view_may_face(view, on.facet[0], p->scene->part[part].bounds.patch.turn);
 }
 
@@ -186,8 +186,8 @@ int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
 {
     const uint32_t part = bands->events.part[event];
     const lrcsi_edge_facets on = lrcsi_edge_facets_of(bands->view, bands->events.edge[event], part);
-    return on.count == 1 && lrcsi_outline_inside(&bands->orders.outline[part], bands->view,
-                                                 bands->view->facing[on.facet[0]]);
+    return lrcsi_edge_is_rim(&on) && lrcsi_outline_inside(&bands->orders.outline[part], bands->view,
+                                                          bands->view->facing[on.facet[0]]);
 }
 
 static lrcsi_outline_areas event_areas(const lrcsi_event_bands *bands, uint32_t event)

@@ -21,7 +21,7 @@ typedef struct lrcsi_part_orders {
     const lrcsi_view *view;
     lrcsi_outline *outline; /* part */
     lrcsi_body *body;       /* part; NULL: no shape has a closed form, and pairs are not tried */
-    lrcsi_part_pair *pair;  /* what was found last of pairs, so that it is not computed again */
+    lrcsi_part_pair *pair;  /* what was found last of pairs, to save time: it changes no answer */
 } lrcsi_part_orders;
 
 /* Bytes for it. It stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */

@@ -201,9 +201,9 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
         lrcsi_grid_walk_limit(&walk, view->prepared->scene->facet[facet].corner, 3, 0);
     }
     while (!more && lrcsi_grid_walk_next(&walk, &row)) {
-        const uint32_t *first = grid->first + (size_t)row.y * grid->size;
         for (uint32_t x = row.x0; x < row.x1 && !more; x++) {
-            for (uint32_t i = first[x]; i < first[x + 1] && count < query->most; i++) {
+            const lrcsi_grid_items bucket = lrcsi_grid_row_items(grid, row.y, x, x + 1);
+            for (uint32_t i = bucket.from; i < bucket.to && count < query->most; i++) {
                 lrcsi_event_box *event = &search->event[grid->item[i]];
                 more = left == 0;
                 if (more) {
