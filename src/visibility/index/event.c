@@ -56,8 +56,8 @@ static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, 
 }
 
 /* Marks events among the plain edges: those of facets of which at least one can hide others, and
-   that do not continue each other. A meshlet whose facets all have the same value as those around it
-   has none. */
+   that do not continue each other. A meshlet whose facets all have the same value as those around
+   it has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
