@@ -204,6 +204,26 @@ static int face_contains(const flat_face *face, const double x[2], double distan
     return sqrt(at[0] * at[0] + at[1] * at[1]) + wide < face->radius;
 }
 
+/* Is a part in front of the plane of the face? *err: what that leaves open in projection, 0 if it
+   is not in front. */
+static int part_is_before_face(const face_job *job, uint32_t part, double *err)
+{
+    const lrcsi_event_bands *bands = job->bands;
+    const lrcsi_outline *outline = &bands->orders.outline[part];
+    if (outline->known && lrcsi_outline_in_front(outline, bands->view, job->face.facet, err)) {
+        return 1;
+    }
+    *err = 0;
+    return 0;
+}
+
+/* The errors of both ends of an edge, for points anywhere on the face. */
+static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
+{
+    return LRCSI_EDGE_RECTANGLE_ERR * (lrcsi_view_point_err(view->point[edge->low].x) +
+                                       lrcsi_view_point_err(view->point[edge->high].x));
+}
+
 /* Returns 0 if the edge is not over the face, or (b) does not hold. */
 static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
 {
@@ -217,19 +237,16 @@ static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
                        .outline = &bands->orders.outline[part],
                        .a = view->point[edge->low].x,
                        .b = view->point[edge->high].x};
-    if (part == job->face.part || side == 0 || !m->outline->known ||
-        !face_contains(&job->face, m->a, 0) || !face_contains(&job->face, m->b, 0)) {
+    if (part == job->face.part || side == 0 || !face_contains(&job->face, m->a, 0) ||
+        !face_contains(&job->face, m->b, 0)) {
         return 0;
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!lrcsi_outline_in_front(m->outline, view, job->face.facet, &m->contact) ||
-        lrcsi_event_rim_is_inside(bands, event)) {
+    if (!part_is_before_face(job, part, &m->contact) || lrcsi_event_rim_is_inside(bands, event)) {
         return 0;
     }
-    m->err = m->contact + m->outline->err +
-             LRCSI_EDGE_RECTANGLE_ERR * (lrcsi_view_point_err(m->a) + lrcsi_view_point_err(m->b)) +
-             LRCSI_PROXIMITY_ERR;
+    m->err = m->contact + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
     for (int i = 0; i < 2; i++) {
         m->along[i] = ab[i] / m->length;
@@ -277,17 +294,12 @@ static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
     const uint32_t part = bands->events.part[other];
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[other]];
     const int is_own = part == bands->events.part[m->event];
-    const lrcsi_outline *outline = &bands->orders.outline[part];
-    double contact = 0;
-    if (is_own || !outline->known ||
-        !lrcsi_outline_in_front(outline, bands->view, job->face.facet, &contact)) {
-        contact = 0;
+    double slack = m->err + m->width + ends_err(bands->view, edge);
+    if (!is_own) {
+        double contact;
+        (void)part_is_before_face(job, part, &contact);
+        slack += lrcsi_proximity_slack(p, job->face.part, part) + contact;
     }
-    const double slack =
-        (is_own ? 0 : lrcsi_proximity_slack(p, job->face.part, part)) + contact +
-        LRCSI_EDGE_RECTANGLE_ERR * (lrcsi_view_point_err(bands->view->point[edge->low].x) +
-                                    lrcsi_view_point_err(bands->view->point[edge->high].x)) +
-        m->err + m->width;
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, job->face.facet, edge, slack);
     double unproved;
@@ -398,9 +410,7 @@ static void near_boxes_make(face_job *job)
             2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
         double err;
         job->near[i] = (near_box){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-        if (i == job->face.part || (bands->orders.outline[i].known &&
-                                    lrcsi_outline_in_front(&bands->orders.outline[i], bands->view,
-                                                           job->face.facet, &err))) {
+        if (i == job->face.part || part_is_before_face(job, i, &err)) {
             continue;
         }
         for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
