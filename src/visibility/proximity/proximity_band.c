@@ -100,7 +100,7 @@ typedef struct band_job {
     uint32_t *on;               /* event: the part on whose face its margin lies, LRCS_NONE */
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
     lrcsi_marks considered;     /* events: those that the search for the facet has met */
-    uint32_t *near;             /* events: those near the facet */
+    uint32_t *listed;           /* events: those near the facet */
     lrcsi_proximity_band *band; /* to be filled */
 } band_job;
 
@@ -127,7 +127,7 @@ static void add_unproved(lrcsi_proximity_band *band, uint32_t facet, uint32_t ot
     }
 }
 
-/* Lists the event edges near a facet: job->near[0..*count). Returns 0 if the limit of steps is
+/* Lists the event edges near a facet: job->listed[0..*count). Returns 0 if the limit of steps is
    reached. */
 static int find_events(band_job *job, const lrcsi_edge_search *where, uint32_t *count)
 {
@@ -152,7 +152,7 @@ static int find_events(band_job *job, const lrcsi_edge_search *where, uint32_t *
             const lrcsi_edge *edge = &job->view->prepared->topology.edge[bands->events.edge[event]];
             if (!lrcsi_edge_search_excludes(where, job->view->point[edge->low].x,
                                             job->view->point[edge->high].x, &line)) {
-                job->near[(*count)++] = event;
+                job->listed[(*count)++] = event;
             }
         }
     }
@@ -165,22 +165,22 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t part = job->bands.events.part[job->near[i]];
-        lrcsi_event_band near;
+        const uint32_t part = job->bands.events.part[job->listed[i]];
+        lrcsi_event_band fractions;
         if (band->gain[facet] >= 1 && band->loss[facet] >= 1) {
             band->parts[facet] = LRCSI_PART_SET_ALL; /* the other edges are not considered */
             return;
         }
-        if (!lrcsi_event_band_make(&job->bands, at, job->near[i], LRCSI_MAPPED, &near)) {
+        if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
             continue;
         }
-        add_unproved(band, facet, part, near.unproved);
-        if (near.area > 0) {
+        add_unproved(band, facet, part, fractions.unproved);
+        if (fractions.area > 0) {
             band->parts[facet] |= lrcsi_part_set_of(part);
-            band->mismatch[facet] += near.area;
-            band->gain[facet] += near.gain;
-            band->loss[facet] += near.loss;
-            band->rows[facet] += near.rows;
+            band->mismatch[facet] += fractions.area;
+            band->gain[facet] += fractions.gain;
+            band->loss[facet] += fractions.loss;
+            band->rows[facet] += fractions.rows;
         }
     }
 }
@@ -192,17 +192,17 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     const uint32_t facet = at->facet;
     const int on_face = lrcsi_face_margin_holds(job->view, facet);
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_event_band near;
+        lrcsi_event_band fractions;
         if (band->free_sides[facet] != 0) {
             band->free_sides[facet] &=
-                (unsigned char)~lrcsi_event_sides(&job->bands, at, job->near[i]);
+                (unsigned char)~lrcsi_event_sides(&job->bands, at, job->listed[i]);
         }
-        if (on_face && job->on[job->near[i]] == job->view->prepared->scene->facet_part[facet]) {
+        if (on_face && job->on[job->listed[i]] == job->view->prepared->scene->facet_part[facet]) {
             continue; /* its area is that of a margin */
         }
-        if (lrcsi_event_band_make(&job->bands, at, job->near[i], LRCSI_ALIGNED, &near)) {
-            band->gain_aligned[facet] += near.gain + near.unproved;
-            band->loss_aligned[facet] += near.loss + near.unproved;
+        if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
+            band->gain_aligned[facet] += fractions.gain + fractions.unproved;
+            band->loss_aligned[facet] += fractions.loss + fractions.unproved;
         }
     }
 }
@@ -238,14 +238,14 @@ static int begin_aligned(band_job *job, uint32_t facet)
 
 /* Adds the rim of a known flat face to the fractions of aligned points of one of its facets
    (event_band.c, 6). Given: what of the facet is near facets of other parts. */
-static void add_face_rim(band_job *job, uint32_t facet, double near)
+static void add_face_rim(band_job *job, uint32_t facet, double pairs)
 {
     lrcsi_proximity_band *band = job->band;
     const lrcs_prepared *p = job->view->prepared;
     const double reach = p->proximity.reach[p->scene->facet_part[facet]];
     const unsigned sides = lrcsi_face_margin_sides(job->view, facet);
     for (int k = 0; k < 3; k++) {
-        if (((sides >> k) & 1) != 0 && (near > 0 || ((band->free_sides[facet] >> k) & 1) == 0)) {
+        if (((sides >> k) & 1) != 0 && (pairs > 0 || ((band->free_sides[facet] >> k) & 1) == 0)) {
             double rim = 4 * reach * lrcsi_proximity_longest(p, facet) / p->normal[facet].length;
             band->gain_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
             band->loss_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
@@ -276,12 +276,12 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
-    const double near = job->band->gain[facet]; /* so far: add_pairs */
+    const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
     const int on_face =
         job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_margin_holds(view, facet);
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
-        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = near;
+        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
         job->band->free_sides[facet] = 7;
     }
     if (!found) {
@@ -295,7 +295,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
         }
     }
     if (found && on_face) {
-        add_face_rim(job, facet, near);
+        add_face_rim(job, facet, pairs);
     }
     if (reach > 0 && /* 3 */
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
@@ -367,9 +367,9 @@ static int all_fractions(band_job *job, lrcs_work *work)
     }
     job->considered.entry =
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
-    job->near = lrcsi_work_take(work, job->bands.events.count, sizeof *job->near);
+    job->listed = lrcsi_work_take(work, job->bands.events.count, sizeof *job->listed);
     job->on = lrcsi_work_take(work, job->bands.events.count, sizeof *job->on);
-    if (!job->considered.entry || !job->near || !job->on) {
+    if (!job->considered.entry || !job->listed || !job->on) {
         return LRCS_E_MEMORY;
     }
     lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->on);
