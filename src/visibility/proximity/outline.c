@@ -52,7 +52,6 @@
 /* The number of support points on either side of the one in the direction of the edge's normal.
    Heuristic: any number gives bounds, more of them narrower ones. */
 #define POINTS_SIDE 4
-#define POINTS      (2 * POINTS_SIDE + 1)
 /* The same for signed areas, of which the error falls with the square of this number. */
 #define MARGIN_POINTS_SIDE 8
 /* Steps of the bisection for the largest slope; heuristic likewise. */
@@ -217,35 +216,6 @@ static double integral_positive(double t0, double t1, double v0, double v1)
     return 0.5 * (t1 - t0) * v * (v / (v - lrcsi_min(v0, v1)));
 }
 
-/* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
-   Returns 0 if the polygon is too steep. */
-static int areas_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
-                     lrcsi_outline_areas *areas)
-{
-    double beyond = 2 * edge->outline->k;
-    double low = lrcsi_max(p->t, -beyond);
-    double high = lrcsi_min(q->t, edge->length + beyond);
-    if (!(high > low)) {
-        return 1;
-    }
-    double chord = (q->depth - p->depth) / (q->t - p->t);
-    if (!(fabs(chord) <= 1)) { /* all tangents are less steep */
-        return 0;
-    }
-    double t0 = lrcsi_max(p->t, 0);
-    double t1 = lrcsi_min(q->t, edge->length);
-    areas->gain +=
-        integral_positive(t0, t1, p->depth + chord * (t0 - p->t), p->depth + chord * (t1 - p->t));
-    double turn = q->slope - p->slope;
-    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
-    meet = lrcsi_min(high, lrcsi_max(low, meet));
-    areas->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
-                                     -(p->depth + p->slope * (meet - p->t)));
-    areas->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
-                                     -(q->depth + q->slope * (high - q->t)));
-    return 1;
-}
-
 /* The coordinates along an edge. Returns 0 if it cannot be used. */
 static int outline_edge_make(const lrcsi_outline *o, const double a[3], const double b[3], int side,
                              outline_edge *edge)
@@ -263,84 +233,108 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
     return 1;
 }
 
-lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
-                                             const double b[3], int side)
+/* Along an edge: the areas between it and the polygon, and the tangents (2); the integrals of these
+   two over it (3). */
+typedef struct outline_sums {
+    double gain, loss, polygon, tangents;
+} outline_sums;
+
+/* Adds what lies between support points p and q. Returns 0 if the polygon is too steep. */
+static int sums_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
+                    outline_sums *sums)
 {
-    const lrcsi_outline_areas unknown = {HUGE_VAL, HUGE_VAL, 0};
-    outline_edge edge;
-    if (!outline_edge_make(o, a, b, side, &edge)) {
-        return unknown;
+    const double beyond = 2 * edge->outline->k;
+    const double low = lrcsi_max(p->t, -beyond);
+    const double high = lrcsi_min(q->t, edge->length + beyond);
+    if (!(high > low)) {
+        return 1;
     }
-    double before = slope_reaching(&edge, -1, -2 * o->k);
-    double after = slope_reaching(&edge, 1, edge.length + 2 * o->k);
-    lrcsi_outline_areas areas = {0, 0, 0};
-    outline_point last = outline_point_at(&edge, -before);
-    if (last.t > -2 * o->k) { /* the end of K, or too steep */
-        return unknown;
+    const double chord = (q->depth - p->depth) / (q->t - p->t);
+    if (!(fabs(chord) <= 1)) { /* all tangents are less steep */
+        return 0;
     }
-    for (int i = 1; i < POINTS; i++) {
-        double steps = (double)i / POINTS_SIDE - 1; /* -1 .. 1 */
-        outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
-        if (!areas_add(&edge, &last, &next, &areas)) {
-            return unknown;
+    const double turn = q->slope - p->slope;
+    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
+    meet = lrcsi_min(high, lrcsi_max(low, meet));
+    sums->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
+                                    -(p->depth + p->slope * (meet - p->t)));
+    sums->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
+                                    -(q->depth + q->slope * (high - q->t)));
+    const double from = lrcsi_max(p->t, 0);
+    const double to = lrcsi_min(q->t, edge->length);
+    if (to > from) {
+        const double at_from = p->depth + chord * (from - p->t);
+        const double at_to = p->depth + chord * (to - p->t);
+        meet = lrcsi_min(to, lrcsi_max(from, meet));
+        sums->gain += integral_positive(from, to, at_from, at_to);
+        sums->polygon += 0.5 * (to - from) * (at_from + at_to);
+        sums->tangents += (meet - from) * (p->depth + p->slope * (0.5 * (from + meet) - p->t));
+        sums->tangents += (to - meet) * (q->depth + q->slope * (0.5 * (meet + to) - q->t));
+    }
+    return 1;
+}
+
+/* Adds up along the whole edge, with this many support points on either side of the one in the
+   direction of its normal. Returns 0 if the outline ends there, or is too steep. */
+static int outline_sums_make(const outline_edge *edge, int per_side, outline_sums *sums)
+{
+    const double beyond = 2 * edge->outline->k;
+    const double before = slope_reaching(edge, -1, -beyond);
+    const double after = slope_reaching(edge, 1, edge->length + beyond);
+    outline_point last = outline_point_at(edge, -before);
+    *sums = (outline_sums){0, 0, 0, 0};
+    if (last.t > -beyond) {
+        return 0;
+    }
+    for (int i = 1; i <= 2 * per_side; i++) {
+        const double steps = (double)i / per_side - 1; /* -1 .. 1 */
+        const outline_point next = outline_point_at(edge, steps * (steps < 0 ? before : after));
+        if (!sums_add(edge, &last, &next, sums)) {
+            return 0;
         }
         last = next;
     }
-    if (last.t < edge.length + 2 * o->k) {
-        return unknown;
-    }
-    areas.width = LRCSI_ROOT_2_OUTWARD * (edge.length + 4 * o->k);
-    double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    areas.gain = (areas.gain + err * areas.width) * LRCSI_OUTWARD_SUM;
-    areas.loss = (areas.loss + err * areas.width) * LRCSI_OUTWARD_SUM;
-    return areas;
+    return last.t >= edge->length + beyond;
 }
 
-/* Adds the integrals over the edge of the polygon and of the tangents from point p to point q. */
-static void integrals_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
-                          double *polygon, double *tangents)
+/* More than sqrt(2) times the length along which the outline is followed. */
+static double outline_width(const outline_edge *edge)
 {
-    double low = lrcsi_max(p->t, 0);
-    double high = lrcsi_min(q->t, edge->length);
-    if (!(high > low)) {
-        return;
+    return LRCSI_ROOT_2_OUTWARD * (edge->length + 4 * edge->outline->k);
+}
+
+/* The error of depths along an edge from a to b. */
+static double depth_err(const lrcsi_outline *o, const double a[3], const double b[3])
+{
+    return 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
+}
+
+lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
+                                             const double b[3], int side)
+{
+    outline_edge edge;
+    outline_sums sums;
+    if (!outline_edge_make(o, a, b, side, &edge) || !outline_sums_make(&edge, POINTS_SIDE, &sums)) {
+        return (lrcsi_outline_areas){HUGE_VAL, HUGE_VAL, 0};
     }
-    double chord = (q->depth - p->depth) / (q->t - p->t);
-    double turn = q->slope - p->slope;
-    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
-    meet = lrcsi_min(high, lrcsi_max(low, meet));
-    *polygon += (high - low) * (p->depth + chord * (0.5 * (low + high) - p->t));
-    *tangents += (meet - low) * (p->depth + p->slope * (0.5 * (low + meet) - p->t));
-    *tangents += (high - meet) * (q->depth + q->slope * (0.5 * (meet + high) - q->t));
+    const double width = outline_width(&edge);
+    const double err = depth_err(o, a, b) * width;
+    return (lrcsi_outline_areas){(sums.gain + err) * LRCSI_OUTWARD_SUM,
+                                 (sums.loss + err) * LRCSI_OUTWARD_SUM, width};
 }
 
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],
                                                const double b[3], int side)
 {
-    lrcsi_outline_margin margin = {0, HUGE_VAL, 0};
     outline_edge edge;
-    if (!outline_edge_make(o, a, b, side, &edge)) {
-        return margin;
+    outline_sums sums;
+    if (!outline_edge_make(o, a, b, side, &edge) ||
+        !outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums)) {
+        return (lrcsi_outline_margin){0, HUGE_VAL, 0};
     }
-    double before = slope_reaching(&edge, -1, -2 * o->k);
-    double after = slope_reaching(&edge, 1, edge.length + 2 * o->k);
-    double polygon = 0;
-    double tangents = 0;
-    outline_point last = outline_point_at(&edge, -before);
-    int reaches = last.t <= -2 * o->k;
-    for (int i = 1; i <= 2 * MARGIN_POINTS_SIDE && reaches; i++) {
-        double steps = (double)i / MARGIN_POINTS_SIDE - 1; /* -1 .. 1 */
-        outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
-        integrals_add(&edge, &last, &next, &polygon, &tangents);
-        last = next;
-    }
-    if (!reaches || last.t < edge.length + 2 * o->k) {
-        return margin;
-    }
-    double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    margin.width = LRCSI_ROOT_2_OUTWARD * (edge.length + 4 * o->k);
-    margin.area = 0.5 * (polygon + tangents);
-    margin.error =
-        (0.5 * lrcsi_max(0, polygon - tangents) + err * margin.width) * LRCSI_OUTWARD_SUM;
-    return margin;
+    const double width = outline_width(&edge);
+    const double err = depth_err(o, a, b) * width;
+    const double between = 0.5 * lrcsi_max(0, sums.polygon - sums.tangents);
+    return (lrcsi_outline_margin){0.5 * (sums.polygon + sums.tangents),
+                                  (between + err) * LRCSI_OUTWARD_SUM, width};
 }
