@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* A set of parts: bit i is part i; the last bit is all parts from there on. */
+/* A set of parts: bit i is part i; the last bit is all parts from LRCSI_PART_SET_SINGLE on. */
 #ifndef LRCSI_PART_SET_H
 #define LRCSI_PART_SET_H
 
 #include <stdint.h>
 
 typedef uint64_t lrcsi_part_set;
-#define LRCSI_PART_SET_ALL UINT64_MAX
+#define LRCSI_PART_SET_ALL    UINT64_MAX
+#define LRCSI_PART_SET_SINGLE 63u
+
 static inline lrcsi_part_set lrcsi_part_set_of(uint32_t part)
 {
-    return (lrcsi_part_set)1 << (part < 63 ? part : 63);
+    return (lrcsi_part_set)1 << (part < LRCSI_PART_SET_SINGLE ? part : LRCSI_PART_SET_SINGLE);
 }
 
 #endif

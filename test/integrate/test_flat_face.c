@@ -147,6 +147,41 @@ static void shapes_on_a_disc(void **state)
     check_faces(cases, 2);
 }
 
+/* The error is attributed to the shape in front, whose division it depends on, not to the face. */
+static void margins_are_attributed_to_the_shape_in_front(void **state)
+{
+    (void)state;
+    static const unsigned char halved[3][2] = {{0, 0}, {4, 0}, {0, 4}}; /* how often, each part */
+    const double d[3] = {0.5, 0, sqrt(0.75)};
+    double error[3];
+    double part_error[2];
+    for (int i = 2; i >= 0; i--) {
+        lrcs_recipe_part part[2] = {{.place = lrcs_place_default()},
+                                    {.place = lrcs_place_default()}};
+        lrcs_recipe_material material[2] = {{.name = "bright", .brdf = bright},
+                                            {.name = "black", .brdf = {0, 0, 1, 0}}};
+        part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 1};
+        part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.1};
+        place_at(&part[1], 0.55, 0, 0);
+        for (int k = 0; k < 2; k++) {
+            part[k].name = "";
+            part[k].material = material[k].name;
+            part[k].material_index = k;
+        }
+        const lrcs_recipe recipe = {
+            .part = part, .part_count = 2, .material = material, .material_count = 2};
+        const lrcs_build_options build = {1e-4, 1u << 16, LRCS_NORMALS_FLAT, 1, 1e-2, halved[i]};
+        lrcs_run_options run = lrcs_run_options_default();
+        run.method = LRCS_METHOD_EXACT;
+        run.part_error_m2 = part_error;
+        error[i] = recipe_run(&recipe, &build, &run, d).budget.tessellation_m2;
+    }
+    assert_true(error[0] > 0 && error[1] > 0.9 * error[0]);
+    check_most(error[2], 0.2 * error[0]);
+    check_most(part_error[0], 0.1 * part_error[1]);
+    check_abs(part_error[0] + part_error[1], error[0], 0.5 * error[0]);
+}
+
 /* --- random faces ----------------------------------------------------------------------------- */
 
 static double between(uint64_t *state, double low, double high)
@@ -283,6 +318,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shapes_above_a_disc),
         cmocka_unit_test(shapes_on_a_disc),
+        cmocka_unit_test(margins_are_attributed_to_the_shape_in_front),
         cmocka_unit_test(faces_behind_many_shapes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

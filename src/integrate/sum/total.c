@@ -207,6 +207,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                            .details = *details};
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         part_error[i] = 0;
+        run.shared_reach += i < LRCSI_PART_SET_SINGLE ? 0 : p->scene->part[i].bounds.reach;
     }
     if (areas->moment) {
         memset(details->corrected, 0, p->scene->facet_count);
@@ -233,6 +234,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     total_finish(&run);
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
+        if (i >= LRCSI_PART_SET_SINGLE && run.shared_error > 0) {
+            part_error[i] += run.shared_error * (p->scene->part[i].bounds.reach / run.shared_reach);
+        }
         part_error[i] = lrcsi_prepared_area(p, part_error[i]);
     }
     if (replaced && !run.tessellation) {

@@ -42,12 +42,13 @@ void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
     sums->bias += per_area * visible->bias;
 }
 
+/* Adds to the record of a facet. */
 void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
 {
     if (run->details.records) {
         const lrcs_prepared *p = run->view->prepared;
-        run->details.records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
-        run->details.records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+        run->details.records[facet].sigma_m2 += lrcsi_prepared_area(p, glint + diffuse);
+        run->details.records[facet].sigma_glint_m2 += lrcsi_prepared_area(p, glint);
     }
 }
 
@@ -135,23 +136,46 @@ void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
     }
 }
 
-/* Divides an error of a facet among the parts that cause it, in proportion to their reaches: the
-   parts whose shadows may end on the facet and, with `own`, its own part. */
-static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error, int own)
+/* Divides an error of a facet among the parts that cause it, in proportion to their reaches: those
+   of a set and, with `own`, its own part. */
+static void divide_error(lrcsi_total_run *run, uint32_t facet, double error, lrcsi_part_set set,
+                         int own)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
-    lrcsi_part_set set = run->band ? run->band->whole->parts[facet] : 0;
-    double reach = 0;
-    if (own) {
+    if (own || set == 0) {
         set |= lrcsi_part_set_of(scene->facet_part[facet]);
     }
-    for (uint32_t i = 0; i < scene->part_count; i++) {
+    double shared = set >> LRCSI_PART_SET_SINGLE != 0 ? run->shared_reach : 0;
+    double reach = shared;
+    for (uint32_t i = 0; i < scene->part_count && i < LRCSI_PART_SET_SINGLE; i++) {
         reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].bounds.reach : 0;
     }
-    for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
+    if (!(reach > 0)) {
+        return;
+    }
+    run->shared_error += error * (shared / reach);
+    for (uint32_t i = 0; i < scene->part_count && i < LRCSI_PART_SET_SINGLE; i++) {
         run->details.part_error[i] +=
             (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].bounds.reach / reach) : 0;
     }
+}
+
+/* Divides the tessellation error of a facet among the parts whose shadows may end on it and its own
+   part. On a flat face whose margins are used, the facet that represents it has the errors of
+   margins anywhere on the face, and the face's own part causes an error only where a side of the
+   face is not free. */
+static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
+{
+    const lrcsi_proximity_band *band = run->band ? run->band->whole : NULL;
+    lrcsi_part_set set = band ? band->parts[facet] : 0;
+    int own = 1;
+    if (band && lrcsi_flat_face_uses(run->areas->face, run->view, facet)) {
+        const lrcsi_flat_face *face =
+            &run->areas->face[run->view->prepared->scene->facet_part[facet]];
+        set |= face->facet == facet ? face->causes : 0;
+        own = (lrcsi_face_margin_sides(run->view, facet) & ~(unsigned)band->free_sides[facet]) != 0;
+    }
+    divide_error(run, facet, error, set, own);
 }
 
 /* Adds the tessellation error of a facet on a wall whose visible pieces are known: what other parts
@@ -163,7 +187,8 @@ static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_r
     if (run->details.part_error) {
         uint32_t own = run->view->prepared->scene->facet_part[facet];
         run->details.part_error[own] += LRCS_FOUR_PI * wall->own;
-        add_part_errors(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below), 0);
+        divide_error(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below),
+                     run->band->whole->parts[facet], 0);
     }
 }
 
@@ -174,15 +199,10 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
     lrcsi_sum_add(&run->sums.glint, LRCS_FOUR_PI * glint);
     lrcsi_sum_add(&run->sums.diffuse, LRCS_FOUR_PI * diffuse);
     run->details.corrected[facet] = 1;
-    if (run->details.records) {
-        const lrcs_prepared *p = run->view->prepared;
-        run->details.records[facet].sigma_m2 +=
-            lrcsi_prepared_area(p, LRCS_FOUR_PI * (glint + diffuse));
-        run->details.records[facet].sigma_glint_m2 += lrcsi_prepared_area(p, LRCS_FOUR_PI * glint);
-    }
+    lrcsi_total_record(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
 }
 
-/* Adds what the margins of a face change, if they count to this facet. The true reflectance differs
+/* If a facet represents its face, adds sigma of the face's margins. The true reflectance differs
    from the facet's within the tessellation error. */
 static void add_face_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
@@ -197,12 +217,7 @@ static void add_face_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_in
     lrcsi_sum_add(&run->sums.glint, sign * terms.glint);
     lrcsi_sum_add(&run->sums.diffuse, sign * terms.diffuse);
     run->sums.rounding += terms.rounding;
-    if (run->details.records) {
-        const lrcs_prepared *p = run->view->prepared;
-        run->details.records[facet].sigma_m2 +=
-            sign * lrcsi_prepared_area(p, terms.glint + terms.diffuse);
-        run->details.records[facet].sigma_glint_m2 += sign * lrcsi_prepared_area(p, terms.glint);
-    }
+    lrcsi_total_record(run, facet, sign * terms.glint, sign * terms.diffuse);
 }
 
 /* Adds the tessellation error of a facet: the error of replacing curved shapes by facets, and the
@@ -230,7 +245,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
         run->sums.above += LRCS_FOUR_PI * error.above;
         run->sums.below += LRCS_FOUR_PI * error.below;
         if (run->details.part_error && error.above + error.below > 0) {
-            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below), 1);
+            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below));
         }
     } else if (run->band) {
         run->sums.above +=

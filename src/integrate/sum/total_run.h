@@ -57,7 +57,9 @@ typedef struct lrcsi_total_run {
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patches patches;
-    lrcsi_total total; /* its counts of facets; the sums are converted at the end */
+    double shared_reach, shared_error; /* of the parts that share a bit of part sets: the sum of
+                                          their reaches; the errors that they cause together */
+    lrcsi_total total;                 /* its counts of facets; the sums are converted at the end */
     lrcsi_total_sums sums;
 } lrcsi_total_run;
 

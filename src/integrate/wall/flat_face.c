@@ -6,7 +6,7 @@
 
 #include "base/range.h"
 
-/* Chooses for the face of a part. */
+/* Decides whether the margins of a part's face are used, and which facet represents it. */
 static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
                                         const lrcsi_visible_area *visible, uint32_t index)
 {
@@ -19,7 +19,7 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
     double with = 2 * whole->face[index].error; /* the sum of both errors, gain and loss */
     double without = 0;
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (!lrcsi_face_margin_holds(view, f)) {
+        if (!lrcsi_face_margin_applies(view, f)) {
             continue;
         }
         if (whole->gain_aligned[f] < 0) {
@@ -38,6 +38,7 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
     }
     face.area = whole->face[index].area;
     face.error = whole->face[index].error;
+    face.causes = whole->face[index].causes;
     return with < without ? face : unused;
 }
 

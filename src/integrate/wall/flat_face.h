@@ -9,17 +9,19 @@
 
 /* Of a part. Areas are in projection, scaled. */
 typedef struct lrcsi_flat_face {
-    uint32_t facet; /* the one that the margins count to; LRCS_NONE: margins are not used */
+    uint32_t facet; /* the one that represents the face in the sum; LRCS_NONE: margins are not
+                              used */
     double area;    /* of the margins: to be added to what is visible of the facet; may be < 0 */
     double error;   /* bound on the error of that area */
+    lrcsi_part_set causes; /* the parts whose outlines the margins belong to */
 } lrcsi_flat_face;
 
 /* Is a facet one of a face whose margins are used? Given: face[part], or NULL. */
-static inline int lrcsi_flat_face_holds(const lrcsi_flat_face *face, const lrcsi_view *view,
-                                        uint32_t facet)
+static inline int lrcsi_flat_face_uses(const lrcsi_flat_face *face, const lrcsi_view *view,
+                                       uint32_t facet)
 {
     return face && face[view->prepared->scene->facet_part[facet]].facet != LRCS_NONE &&
-           lrcsi_face_margin_holds(view, facet);
+           lrcsi_face_margin_applies(view, facet);
 }
 
 /* What is to be added to the visible area of a facet: 0 for all but one of a face. */

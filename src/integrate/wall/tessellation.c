@@ -192,7 +192,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     if (state == LRCSI_PATCH_AWAY) {
         error.below = area * inside_error(in, facet, &brdf, incidence);
     }
-    if (in->band && lrcsi_flat_face_holds(in->face, view, facet) &&
+    if (in->band && lrcsi_flat_face_uses(in->face, view, facet) &&
         (in->band->whole->mismatch[facet] > 0 ||
          in->face[p->scene->facet_part[facet]].facet == facet)) { /* 2 */
         const lrcsi_tessellation unit = face_error(in, facet, incidence, &bounds, patches);

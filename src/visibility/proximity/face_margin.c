@@ -35,25 +35,22 @@
    line from there through a point y of depth at most k leads to the polygon of outline.c within 2 k
    of y along the edge. So the true shapes leave visible the integral of d(t) more.
 
-   Each point at which K and K' differ counts to the event edge of Q nearest to it. Near the end a
-   that is not decided by the perpendicular but, inside K', by the bisector of the two edges, and
-   outside by where both are equally near: the regions between these and the perpendicular, up to a
-   distance of 2 k, have areas of at most 2 k^2 tan(A / 2) and 2 k^2 A. 4 k^2 A exceeds both
+   Each point at which K and K' differ is attributed to the event edge of Q nearest to it. Near the
+   end a that is not decided by the perpendicular but, inside K', by the bisector of the two edges,
+   and outside by where both are equally near: the regions between these and the perpendicular, up
+   to a distance of 2 k, have areas of at most 2 k^2 tan(A / 2) and 2 k^2 A. 4 k^2 A exceeds both
    together; likewise for b. */
 #include "visibility/proximity/face_margin.h"
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "mesh/shape/revolution.h"
 #include "visibility/uniform/query.h"
 
-/* The least cosine of the face's incidence. A heuristic, so that distances in the plane follow from
-   those in projection. */
-#define FACE_COS_MIN 0.02
 /* An edge is used only if it is longer than this many widths w. */
 #define LENGTH_MIN_WIDTHS 2.0
 /* The sine of the largest turn between neighbouring event edges: below that of 0.5. An angle below
@@ -61,18 +58,13 @@
 #define TURN_SINE_MAX   0.47
 #define ANGLE_OVER_SINE 1.05
 
-/* A part's face in the view. */
-typedef struct flat_face {
-    uint32_t part, facet;       /* one of its facets */
-    double centre[3], radius;   /* of a circle in U and V; scaled */
-    double view[2], axis[2][2]; /* the centre and the part's x and y axes in projection */
-    double det;                 /* of these axes */
-} flat_face;
-
-/* The box in projection around the facets of a part that are near the plane of a face. */
-typedef struct near_box {
-    double low[2], high[2];
-} near_box;
+/* Another part, beside the plane of a face. */
+typedef struct face_part {
+    int in_front;           /* 1: it is in front of the plane as in (b) */
+    double contact;         /* in projection: what that leaves open; 0 if it is not in front */
+    double low[2], high[2]; /* in projection: around its facets near the plane, for (e); empty if
+                                  it is in front */
+} face_part;
 
 typedef struct face_job {
     lrcsi_event_bands *bands;
@@ -80,9 +72,9 @@ typedef struct face_job {
     lrcs_work *work;
     lrcsi_grid facets; /* for queries about the faces' facets; made when first needed */
     int facets_tried, facets_made;
-    flat_face face;
-    near_box *near; /* of each part */
-    int near_known;
+    lrcsi_face_frame face;
+    face_part *part; /* of each part */
+    int parts_known;
 } face_job;
 
 /* An event edge: its ends, the distance w; the part with its outline. */
@@ -96,126 +88,93 @@ typedef struct edge_margin {
     double err, width;                   /* e; w */
 } edge_margin;
 
-int lrcsi_face_margin_holds(const lrcsi_view *view, uint32_t facet)
-{
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    return view->facing[facet] > 0 && p->scene->facet_smooth[facet] == 0 && part->rigid &&
-           part->kind >= 0 && !lrcsi_shape_is_plane_faced(part->kind) && part->bounds.reach > 0 &&
-           (part->solid || part->kind == LRCS_SHAPE_DISC);
-}
+/* --- the parts beside the plane of a face ----------------------------------------------------- */
 
-unsigned lrcsi_face_margin_sides(const lrcsi_view *view, uint32_t facet)
+/* Grows a part's box by what of a facet is within `slack` of the plane of the face. */
+static void face_part_add(const face_job *job, uint32_t facet, const double up[3], double slack,
+                          face_part *part)
 {
+    const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    unsigned sides = 0;
-    for (unsigned k = 0; k < 3; k++) {
-        const uint32_t other = p->neighbours.facet[facet].corner[k];
-        if (other >= p->scene->facet_count || other == facet ||
-            p->scene->facet_part[other] != p->scene->facet_part[facet] ||
-            !lrcsi_face_margin_holds(view, other)) {
-            sides |= 1u << k;
+    const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
+                                     lrcsi_prepared_corner(p, facet, 1),
+                                     lrcsi_prepared_corner(p, facet, 2)};
+    const double down[3] = {-up[0], -up[1], -up[2]};
+    double height[3];
+    for (int k = 0; k < 3; k++) {
+        double from[3];
+        lrcsi_vec3_between(job->face.centre, corner[k], from);
+        height[k] = lrcsi_vec3_dot(from, up);
+    }
+    if (lrcsi_min3(height[0], height[1], height[2]) > slack ||
+        lrcsi_max3(height[0], height[1], height[2]) < -slack) {
+        return;
+    }
+    lrcsi_slice slice = lrcsi_slice_start(corner[0], corner[1], corner[2]);
+    lrcsi_slice_cut(&slice, up, job->face.centre, slack);
+    lrcsi_slice_cut(&slice, down, job->face.centre, slack);
+    for (int i = 0; i < slice.count; i++) {
+        double x[3];
+        lrcsi_view_coordinates(view, slice.x[i], x);
+        for (int k = 0; k < 2; k++) {
+            part->low[k] = lrcsi_min(part->low[k], x[k] - slack);
+            part->high[k] = lrcsi_max(part->high[k], x[k] + slack);
         }
     }
-    return sides;
 }
 
-/* Is every open curved part in front of a facet's part or of its plane, or behind it, for all of
-   the facet? */
-static int open_parts_are_ordered(lrcsi_part_orders *orders, uint32_t facet)
+/* Is all of a part farther than `slack` from the plane of the face? */
+static int part_is_far(const face_job *job, uint32_t index, const double up[3], double slack)
 {
-    const lrcs_prepared *p = orders->view->prepared;
-    int ordered = 1;
-    for (uint32_t i = 0; i < p->scene->part_count && ordered; i++) {
-        double err;
-        double unproved = 0;
-        ordered = i == p->scene->facet_part[facet] || !(p->proximity.hausdorff[i] > 0) ||
-                  lrcsi_proximity_openings(p, i) == 0 ||
-                  ((lrcsi_part_is_in_front(orders, facet, i, &err, &unproved) ||
-                    lrcsi_part_is_behind(orders, facet, i, &unproved)) &&
-                   unproved == 0);
+    const lrcsi_body *bodies = job->bands->orders.body;
+    if (!bodies) {
+        return 0;
     }
-    return ordered;
+    const lrcsi_body *body = &bodies[index];
+    const double down[3] = {-up[0], -up[1], -up[2]};
+    const double level = lrcsi_vec3_dot(job->face.centre, up);
+    const double wide = slack + body->err;
+    return level - lrcsi_body_support_all(body, up) > wide ||
+           -lrcsi_body_support_all(body, down) - level > wide;
 }
 
-/* The face of a part. Returns 0 if there is none, or it is seen too obliquely, or one of its facets
-   hides nothing (another takes its place). */
-static int flat_face_make(lrcsi_part_orders *orders, uint32_t index, flat_face *face)
+/* Fills job->part. The slack of facets near the plane is doubled, which contains all errors. Where
+   the limit of steps is reached, facets are near everywhere. */
+static void face_parts_make(face_job *job)
 {
-    const lrcsi_view *view = orders->view;
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = &p->scene->part[index];
-    double from[3];
-    double x[3];
-    *face = (flat_face){.part = index, .facet = LRCS_NONE};
-    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (lrcsi_face_margin_holds(view, f)) {
-            face->facet = f;
-            if (p->skip[f] || p->redundant[f] != LRCSI_NOT_REDUNDANT ||
-                !open_parts_are_ordered(orders, f)) {
-                return 0;
+    lrcsi_event_bands *bands = job->bands;
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcs_scene *scene = p->scene;
+    const double *up = scene->part[job->face.part].axis[2];
+    const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_part *part = &scene->part[i];
+        const lrcsi_outline *outline = &bands->orders.outline[i];
+        const double slack =
+            2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
+        face_part *beside = &job->part[i];
+        *beside = (face_part){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
+        beside->in_front =
+            counted && outline->known &&
+            lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->contact);
+        beside->contact = beside->in_front ? beside->contact : 0;
+        if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack)) {
+            continue;
+        }
+        if (!lrcsi_meter_take(bands->meter, part->facet_count)) {
+            *beside = (face_part){.low = {-HUGE_VAL, -HUGE_VAL}, .high = {HUGE_VAL, HUGE_VAL}};
+            continue;
+        }
+        for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+            if (!p->skip[f]) {
+                face_part_add(job, f, up, slack, beside);
             }
         }
     }
-    if (face->facet == LRCS_NONE) {
-        return 0;
-    }
-    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
-    const double unit = ldexp(part->unit, -p->exponent);
-    for (int k = 0; k < 3; k++) {
-        face->centre[k] = ldexp(part->origin[k], -p->exponent);
-    }
-    lrcsi_vec3_between(face->centre, lrcsi_prepared_corner(p, face->facet, 0), from);
-    double height = lrcsi_vec3_dot(from, part->axis[2]);
-    for (int k = 0; k < 3; k++) {
-        face->centre[k] += height * part->axis[2][k];
-    }
-    lrcsi_view_coordinates(view, face->centre, x);
-    for (int i = 0; i < 2; i++) {
-        face->view[i] = x[i];
-        for (int k = 0; k < 2; k++) {
-            face->axis[k][i] = lrcsi_vec3_dot(view->R[i], part->axis[k]);
-        }
-    }
-    /* the sides of U are at least this far from its centre, since cos h >= 1 - h^2 / 2 */
-    int is_top = body.zones > 0 && fabs(height) > 0.5 * body.height * unit;
-    face->radius = (is_top ? body.top : body.base) * unit *
-                   lrcsi_min(1, body.vertex_ratio * (1 - 0.5 * body.half * body.half));
-    face->det = face->axis[0][0] * face->axis[1][1] - face->axis[0][1] * face->axis[1][0];
-    return fabs(face->det) > FACE_COS_MIN;
+    job->parts_known = 1;
 }
 
-/* The coordinates in the plane of the face, along the part's x and y axes, of a point of the view
-   plane. */
-static void face_coordinates(const flat_face *face, const double x[2], double at[2])
-{
-    const double from[2] = {x[0] - face->view[0], x[1] - face->view[1]};
-    at[0] = (from[0] * face->axis[1][1] - from[1] * face->axis[1][0]) / face->det;
-    at[1] = (from[1] * face->axis[0][0] - from[0] * face->axis[0][1]) / face->det;
-}
-
-/* Is a point of the view plane in the face, and all within a distance of it? The projection makes
-   no distance in the plane smaller than |det| times itself. */
-static int face_contains(const flat_face *face, const double x[2], double distance)
-{
-    double at[2];
-    face_coordinates(face, x, at);
-    double wide = (distance + LRCSI_PROXIMITY_ERR) / fabs(face->det) * LRCSI_OUTWARD_NANO;
-    return sqrt(at[0] * at[0] + at[1] * at[1]) + wide < face->radius;
-}
-
-/* Is a part in front of the plane of the face? *err: what that leaves open in projection, 0 if it
-   is not in front. */
-static int part_is_before_face(const face_job *job, uint32_t part, double *err)
-{
-    const lrcsi_event_bands *bands = job->bands;
-    const lrcsi_outline *outline = &bands->orders.outline[part];
-    if (outline->known && lrcsi_outline_in_front(outline, bands->view, job->face.facet, err)) {
-        return 1;
-    }
-    *err = 0;
-    return 0;
-}
+/* --- one event edge --------------------------------------------------------------------------- */
 
 /* The errors of both ends of an edge, for points anywhere on the face. */
 static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
@@ -237,15 +196,20 @@ static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
                        .outline = &bands->orders.outline[part],
                        .a = view->point[edge->low].x,
                        .b = view->point[edge->high].x};
-    if (part == job->face.part || side == 0 || !face_contains(&job->face, m->a, 0) ||
-        !face_contains(&job->face, m->b, 0)) {
+    if (part == job->face.part || side == 0 || !lrcsi_face_contains(&job->face, m->a, 0) ||
+        !lrcsi_face_contains(&job->face, m->b, 0)) {
+        return 0;
+    }
+    if (!job->parts_known) {
+        face_parts_make(job);
+    }
+    const face_part *beside = &job->part[part];
+    if (!beside->in_front || lrcsi_event_rim_is_inside(bands, event)) {
         return 0;
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!part_is_before_face(job, part, &m->contact) || lrcsi_event_rim_is_inside(bands, event)) {
-        return 0;
-    }
+    m->contact = beside->contact;
     m->err = m->contact + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
     for (int i = 0; i < 2; i++) {
@@ -257,10 +221,11 @@ static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
 }
 
 /* (a), and the length of the edge. */
-static int edge_is_inside(const face_job *job, const edge_margin *m)
+static int margin_fits_face(const face_job *job, const edge_margin *m)
 {
-    return m->length > LENGTH_MIN_WIDTHS * m->width && face_contains(&job->face, m->a, m->width) &&
-           face_contains(&job->face, m->b, m->width);
+    return m->length > LENGTH_MIN_WIDTHS * m->width &&
+           lrcsi_face_contains(&job->face, m->a, m->width) &&
+           lrcsi_face_contains(&job->face, m->b, m->width);
 }
 
 /* --- what else is near ------------------------------------------------------------------------ */
@@ -285,8 +250,9 @@ static double edge_turn(const edge_margin *m, const lrcsi_view *view, const lrcs
 }
 
 /* (c): may an event edge of another part, or (d) one of Q that is not next to the edge, come within
-   its slack of N? The slack includes the errors of both ends, wherever N lies on the face, and what
-   (e) leaves open of a part in front of the plane. */
+   its slack of N? For another part the slack of both parts is tested, which is larger than needed
+   (its own Hausdorff distance, or twice that, for aligned points), with the errors of both ends
+   wherever N lies on the face, and with what (b) leaves open of a part in front of the plane. */
 static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
 {
     lrcsi_event_bands *bands = job->bands;
@@ -296,13 +262,10 @@ static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
     const int is_own = part == bands->events.part[m->event];
     double slack = m->err + m->width + ends_err(bands->view, edge);
     if (!is_own) {
-        double contact;
-        (void)part_is_before_face(job, part, &contact);
-        slack += lrcsi_proximity_slack(p, job->face.part, part) + contact;
+        slack += lrcsi_proximity_slack(p, job->face.part, part) + job->part[part].contact;
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, job->face.facet, edge, slack);
-    double unproved;
     if (!lrcsi_edge_rectangle_meets(&box, m->a, m->b)) {
         return 0;
     }
@@ -310,18 +273,19 @@ static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
         return !lrcsi_event_rim_is_inside(bands, other);
     }
     return !lrcsi_edge_rectangle_behind(bands->view, job->face.facet, edge, slack) &&
-           !(lrcsi_part_is_behind(&bands->orders, job->face.facet, part, &unproved) &&
-             unproved == 0);
+           !lrcsi_face_part_is_behind(bands, &job->face, part);
 }
 
-/* (c) and (d). Returned: the turns at both ends. */
-static int edge_is_alone(face_job *job, const edge_margin *m, double turn[2])
+/* (c) and (d). Returned: the turns at both ends. Searched is a box larger than every distance that
+   event_meets tests: a slack is at most e_P + 2 k, a contact k / 2, and the errors of the ends of
+   another edge are smaller still. */
+static int margin_is_isolated(face_job *job, const edge_margin *m, double turn[2])
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_proximity_events *events = &bands->events;
-    const double near = 2 * (p->proximity.reach[job->face.part] + p->proximity.max_hausdorff) +
-                        2 * (m->err + m->width);
+    const double near = p->proximity.reach[job->face.part] + 3 * p->proximity.max_hausdorff +
+                        2 * (m->err + m->width) + 64 * LRCSI_PROXIMITY_ERR;
     const double low[3] = {lrcsi_min(m->a[0], m->b[0]) - near, lrcsi_min(m->a[1], m->b[1]) - near,
                            0};
     const double high[3] = {lrcsi_max(m->a[0], m->b[0]) + near, lrcsi_max(m->a[1], m->b[1]) + near,
@@ -363,76 +327,14 @@ static int edge_is_alone(face_job *job, const edge_margin *m, double turn[2])
     return next[0] != LRCS_NONE && next[1] != LRCS_NONE;
 }
 
-/* Grows a box by what of a facet is within `slack` of the plane of the face. */
-static void near_box_add(const face_job *job, uint32_t facet, const double up[3], double slack,
-                         near_box *box)
-{
-    const lrcsi_view *view = job->bands->view;
-    const lrcs_prepared *p = view->prepared;
-    const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
-                                     lrcsi_prepared_corner(p, facet, 1),
-                                     lrcsi_prepared_corner(p, facet, 2)};
-    const double down[3] = {-up[0], -up[1], -up[2]};
-    double height[3];
-    for (int k = 0; k < 3; k++) {
-        double from[3];
-        lrcsi_vec3_between(job->face.centre, corner[k], from);
-        height[k] = lrcsi_vec3_dot(from, up);
-    }
-    if (lrcsi_min3(height[0], height[1], height[2]) > slack ||
-        lrcsi_max3(height[0], height[1], height[2]) < -slack) {
-        return;
-    }
-    lrcsi_slice slice = lrcsi_slice_start(corner[0], corner[1], corner[2]);
-    lrcsi_slice_cut(&slice, up, job->face.centre, slack);
-    lrcsi_slice_cut(&slice, down, job->face.centre, slack);
-    for (int i = 0; i < slice.count; i++) {
-        double x[3];
-        lrcsi_view_coordinates(view, slice.x[i], x);
-        for (int k = 0; k < 2; k++) {
-            box->low[k] = lrcsi_min(box->low[k], x[k] - slack);
-            box->high[k] = lrcsi_max(box->high[k], x[k] + slack);
-        }
-    }
-}
-
-/* For (e): the boxes around the facets of parts near the plane of the face. Their slack is doubled,
-   which contains all errors. */
-static void near_boxes_make(face_job *job)
-{
-    lrcsi_event_bands *bands = job->bands;
-    const lrcs_prepared *p = bands->view->prepared;
-    const lrcs_scene *scene = p->scene;
-    const double *up = scene->part[job->face.part].axis[2];
-    for (uint32_t i = 0; i < scene->part_count; i++) {
-        const lrcs_part *part = &scene->part[i];
-        const double slack =
-            2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
-        double err;
-        job->near[i] = (near_box){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-        if (i == job->face.part || part_is_before_face(job, i, &err)) {
-            continue;
-        }
-        for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-            if (!p->skip[f]) {
-                near_box_add(job, f, up, slack, &job->near[i]);
-            }
-        }
-    }
-    job->near_known = 1;
-}
-
 /* (e) */
-static int edge_is_clear(face_job *job, const edge_margin *m)
+static int margin_is_clear_of_parts(face_job *job, const edge_margin *m)
 {
     const uint32_t parts = job->bands->view->prepared->scene->part_count;
     const double wide = m->width + m->err;
-    if (!job->near_known) {
-        near_boxes_make(job);
-    }
-    int clear = 1;
+    int clear = lrcsi_meter_take(job->bands->meter, parts);
     for (uint32_t i = 0; i < parts && clear; i++) {
-        const near_box *box = &job->near[i];
+        const face_part *box = &job->part[i];
         int apart = 0;
         for (int k = 0; k < 2; k++) {
             apart |= lrcsi_max(m->a[k], m->b[k]) + wide < box->low[k] ||
@@ -443,8 +345,8 @@ static int edge_is_clear(face_job *job, const edge_margin *m)
     return clear;
 }
 
-/* Does a facet cover a point of the view plane, or is it so close that an exact test has to decide?
- */
+/* May a facet cover a point of the view plane? A cross product is compared with a small number only
+   to choose facets for an exact test. */
 static int facet_may_cover(const lrcsi_view *view, uint32_t facet, const double x[2])
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
@@ -467,7 +369,7 @@ static void facets_make(face_job *job)
     unsigned char *reader = lrcsi_work_take(job->work, count, 1);
     job->facets_tried = 1;
     for (uint32_t f = 0; f < count && reader; f++) {
-        reader[f] = lrcsi_face_margin_holds(view, f) ? 1 : 0;
+        reader[f] = lrcsi_face_margin_applies(view, f) ? 1 : 0;
     }
     const lrcsi_grid_readers readers = {.undecided = reader};
     job->facets_made = reader && lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers,
@@ -475,7 +377,7 @@ static void facets_make(face_job *job)
 }
 
 /* (f): the point half of w beyond the middle of the edge. */
-static int edge_is_seen(face_job *job, const edge_margin *m)
+static int margin_is_visible(face_job *job, const edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_part *part = &view->prepared->scene->part[job->face.part];
@@ -491,12 +393,14 @@ static int edge_is_seen(face_job *job, const edge_margin *m)
     for (int i = 0; i < 2; i++) {
         x[i] = 0.5 * (m->a[i] + m->b[i]) + 0.5 * m->width * m->outward[i];
     }
-    face_coordinates(&job->face, x, at);
+    lrcsi_face_coordinates(&job->face, x, at);
     for (int k = 0; k < 3; k++) {
         point[k] = job->face.centre[k] + at[0] * part->axis[0][k] + at[1] * part->axis[1][k];
     }
-    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (lrcsi_face_margin_holds(view, f) && facet_may_cover(view, f, x)) {
+    const uint32_t end = part->first_facet + part->facet_count;
+    const int counted = lrcsi_meter_take(job->bands->meter, part->facet_count);
+    for (uint32_t f = part->first_facet; f < end && counted; f++) {
+        if (lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x)) {
             int answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             if (answer != LRCSI_QUERY_UNDECIDED) {
                 return answer == LRCSI_QUERY_VISIBLE;
@@ -519,8 +423,8 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     double turn[2];
     *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->contact;
     double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
-    if (edge_is_inside(job, m) && edge_is_clear(job, m) && edge_is_alone(job, m, turn) &&
-        edge_is_seen(job, m)) {
+    if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
+        margin_is_isolated(job, m, turn) && margin_is_visible(job, m)) {
         const lrcsi_outline_margin margin =
             lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event]);
         const double k = m->outline->k + m->err;
@@ -534,22 +438,42 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     return area;
 }
 
-/* Adds the areas along all event edges over the face. */
-static void face_add(face_job *job, lrcsi_face_margin *face, uint32_t *on)
+/* Adds the areas along all event edges over the face. An edge may be listed in several buckets;
+   once its area is added it is left out. */
+static void face_add(face_job *job, lrcsi_face_margin *face, uint32_t *margin_part)
 {
     const lrcsi_event_bands *bands = job->bands;
-    for (uint32_t i = 0; i < bands->events.count; i++) {
-        edge_margin m;
-        double error;
-        if (on[i] != LRCS_NONE || !edge_margin_make(job, i, &m)) {
-            continue;
+    const lrcsi_grid *grid = &bands->events.grid;
+    const lrcsi_face_frame *at = &job->face;
+    double low[3] = {0, 0, 0};
+    double high[3] = {0, 0, 0};
+    for (int k = 0; k < 2; k++) {
+        const double wide = at->radius * (fabs(at->axis[0][k]) + fabs(at->axis[1][k]));
+        low[k] = at->view[k] - wide;
+        high[k] = at->view[k] + wide;
+    }
+    const lrcsi_view_box box = lrcsi_view_box_round(bands->view, low, high);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+        if (!lrcsi_meter_take(bands->meter, (uint64_t)1 + items.to - items.from)) {
+            return;
         }
-        double area = edge_area(job, &m, &error);
-        if (isfinite(area + error)) {
-            on[i] = job->face.part;
-            face->known = 1;
-            face->area += area;
-            face->error += (error + 8 * LRCSI_U * fabs(face->area)) * LRCSI_OUTWARD_NANO;
+        for (uint32_t i = items.from; i < items.to; i++) {
+            const uint32_t event = grid->item[i];
+            edge_margin m;
+            double error;
+            if (margin_part[event] != LRCS_NONE || !edge_margin_make(job, event, &m)) {
+                continue;
+            }
+            const double area = edge_area(job, &m, &error);
+            if (isfinite(area + error)) {
+                margin_part[event] = job->face.part;
+                face->known = 1;
+                face->causes |= lrcsi_part_set_of(bands->events.part[event]);
+                face->area += area;
+                face->error += (error + 8 * LRCSI_U * fabs(face->area)) * LRCSI_OUTWARD_NANO;
+            }
         }
     }
 }
@@ -557,25 +481,25 @@ static void face_add(face_job *job, lrcsi_face_margin *face, uint32_t *on)
 size_t lrcsi_face_margins_need(const lrcs_prepared *p)
 {
     size_t need = lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
-                                 lrcsi_work_bytes(p->scene->part_count, sizeof(near_box)));
+                                 lrcsi_work_bytes(p->scene->part_count, sizeof(face_part)));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
 
 void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
-                             lrcs_work *work, lrcsi_face_margin *face, uint32_t *on)
+                             lrcs_work *work, lrcsi_face_margin *face, uint32_t *margin_part)
 {
     const lrcs_scene *scene = bands->view->prepared->scene;
     const size_t mark = work->used;
     face_job job = {.bands = bands, .classification = classification, .work = work};
-    job.near = lrcsi_work_take(work, scene->part_count, sizeof *job.near);
+    job.part = lrcsi_work_take(work, scene->part_count, sizeof *job.part);
     for (uint32_t i = 0; i < bands->events.count; i++) {
-        on[i] = LRCS_NONE;
+        margin_part[i] = LRCS_NONE;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {
         face[i] = (lrcsi_face_margin){.known = 0};
-        job.near_known = 0;
-        if (job.near && flat_face_make(&bands->orders, i, &job.face)) {
-            face_add(&job, &face[i], on);
+        job.parts_known = 0;
+        if (job.part && lrcsi_face_frame_make(bands, i, &job.face)) {
+            face_add(&job, &face[i], margin_part);
         }
     }
     work->used = mark;

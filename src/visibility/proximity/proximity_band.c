@@ -97,7 +97,7 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
-    uint32_t *on;               /* event: the part on whose face its margin lies, LRCS_NONE */
+    uint32_t *margin_part;      /* event: the part whose face includes its margin, or LRCS_NONE */
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
     lrcsi_marks considered;     /* events: those that the search for the facet has met */
     uint32_t *listed;           /* events: those near the facet */
@@ -190,14 +190,15 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
-    const int on_face = lrcsi_face_margin_holds(job->view, facet);
+    const int on_face = lrcsi_face_margin_applies(job->view, facet);
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
         if (band->free_sides[facet] != 0) {
             band->free_sides[facet] &=
                 (unsigned char)~lrcsi_event_sides(&job->bands, at, job->listed[i]);
         }
-        if (on_face && job->on[job->listed[i]] == job->view->prepared->scene->facet_part[facet]) {
+        if (on_face &&
+            job->margin_part[job->listed[i]] == job->view->prepared->scene->facet_part[facet]) {
             continue; /* its area is that of a margin */
         }
         if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
@@ -277,8 +278,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
     const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
-    const int on_face =
-        job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_margin_holds(view, facet);
+    const int on_face = job->band->face[p->scene->facet_part[facet]].known &&
+                        lrcsi_face_margin_applies(view, facet);
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
         job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
@@ -368,11 +369,11 @@ static int all_fractions(band_job *job, lrcs_work *work)
     job->considered.entry =
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
     job->listed = lrcsi_work_take(work, job->bands.events.count, sizeof *job->listed);
-    job->on = lrcsi_work_take(work, job->bands.events.count, sizeof *job->on);
-    if (!job->considered.entry || !job->listed || !job->on) {
+    job->margin_part = lrcsi_work_take(work, job->bands.events.count, sizeof *job->margin_part);
+    if (!job->considered.entry || !job->listed || !job->margin_part) {
         return LRCS_E_MEMORY;
     }
-    lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->on);
+    lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->margin_part);
     job->curved = lrcsi_box_empty();
     for (uint32_t i = 0; i < p->scene->part_count; i++) {
         const lrcsi_box *box = &job->bands.box[i];
