@@ -151,6 +151,17 @@ static double coarse_tolerance(void)
     return any[pick(6)];
 }
 
+/* A fine scene: either as fine as its facets allow, or such that round shapes have level rings too,
+   so that their outlines are known (fineness.c). */
+static void build_fine(const shape_scene *s, built *b)
+{
+    if (pick(2)) {
+        build(s, 1e-9, (256u << pick(2)) * finer, b);
+    } else {
+        build(s, finer > 8 ? 1e-3 : 5e-2, 1u << 15, b);
+    }
+}
+
 static double any_size(void)
 {
     static const double any[] = {1, 1, 1, 1e6, 1e-6, 0.3, -1};
@@ -175,7 +186,7 @@ static void scene_compare(int which, uint32_t directions)
     double size = any_size();
     shape_scene_transform(&plain, size, any_offset(size, 1e6), &s);
     build(&s, coarse_tolerance(), (64u << pick(4)) * finer, &coarse);
-    build(&s, 1e-9, (256u << pick(2)) * finer, &fine);
+    build_fine(&s, &fine);
     for (uint32_t i = 0; i < directions; i++) {
         double d[3];
         shape_scene_direction(&plain, d);
@@ -195,7 +206,7 @@ static void scene_compare(int which, uint32_t directions)
 static void coarse_and_fine_agree_within_their_bounds(void **state)
 {
     (void)state;
-    shape_scene_seed = 20;
+    shape_scene_seed = 23;
     for (int i = 0; i < SHAPE_SCENE_FAMILIES; i++) {
         scene_compare(i, 2);
     }

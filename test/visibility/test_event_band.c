@@ -144,7 +144,9 @@ static void all_of_a_plate_between_the_outlines_is_gained_or_lost(void **state)
     double unit = ldexp(1, view.prepared->exponent);
     const double *a = view.prepared->vertex[edge->low].x;
     const double *b = view.prepared->vertex[edge->high].x;
-    for (int lost = 0; lost < 2; lost++) {
+    for (int i = 0; i < 4; i++) {
+        const int lost = i % 2;
+        const double share = i < 2 ? 0.5 : 0.95; /* of the way to the circle */
         double at[2] = {unit * a[0], unit * a[1]};
         if (lost) {
             at[0] = 0.5 * unit * (a[0] + b[0]);
@@ -153,9 +155,10 @@ static void all_of_a_plate_between_the_outlines_is_gained_or_lost(void **state)
         double from = hypot(at[0], at[1]); /* the axis */
         double between = fabs(from - radius);
         assert_int_equal(from < radius, lost);
-        at[0] *= 0.5 * (from + radius) / from;
-        at[1] *= 0.5 * (from + radius) / from;
-        lrcs_shape small = {.kind = LRCS_SHAPE_PLATE, .size = {0.1 * between, 0.1 * between}};
+        for (int k = 0; k < 2; k++) {
+            at[k] *= ((1 - share) * from + share * radius) / from;
+        }
+        lrcs_shape small = {.kind = LRCS_SHAPE_PLATE, .size = {0.04 * between, 0.04 * between}};
         look_at_ball_above(&small, at, 0, 0, 1);
         for (int aligned = 0; aligned < 2; aligned++) {
             double gain;
@@ -165,6 +168,28 @@ static void all_of_a_plate_between_the_outlines_is_gained_or_lost(void **state)
             check_most(small.size[0] * small.size[1], found * (1 + 1e-9));
         }
     }
+}
+
+/* A strip across the ball, much narrower than an event edge: along each edge that it crosses, at most
+   what is no farther from it than the two outlines are there counts. */
+static void of_a_narrow_strip_only_what_lies_between_the_outlines_counts(void **state)
+{
+    (void)state;
+    const lrcs_shape strip = {.kind = LRCS_SHAPE_PLATE, .size = {4, 1e-3}};
+    look_at_ball_above(&strip, (const double[2]){0, 0.013}, 0, 0, 1);
+    double deepest = 0;
+    for (uint32_t e = 0; e < bands.events.count; e++) {
+        if (bands.events.part[e] == BALL) {
+            deepest = fmax(deepest, bands.areas[e].gain_depth + bands.areas[e].loss_depth);
+        }
+    }
+    double gain;
+    double loss;
+    band_areas(LRCSI_ALIGNED, &gain, &loss);
+    const double width = ldexp(strip.size[1], -view.prepared->exponent);
+    assert_true(gain + loss > 0 && isfinite(deepest));
+    check_most(deepest, 0.6 * view.prepared->proximity.hausdorff[BALL]);
+    check_most(gain + loss, 2.1 * width * deepest); /* it crosses two edges */
 }
 
 /* The sides of all facets of the plate that are near an event edge. */
@@ -219,6 +244,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_contain_what_lies_between_outlines),
         cmocka_unit_test(all_of_a_plate_between_the_outlines_is_gained_or_lost),
+        cmocka_unit_test(of_a_narrow_strip_only_what_lies_between_the_outlines_counts),
         cmocka_unit_test(an_event_edge_is_near_the_sides_that_its_shadow_meets),
         cmocka_unit_test(what_is_behind_has_no_band),
     };

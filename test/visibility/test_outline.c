@@ -172,7 +172,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     lrcsi_outline o = lrcsi_outline_make(&view, 0);
     assert_true(o.known);
     const lrcsi_topology *topology = &view.prepared->topology;
-    lrcsi_outline_areas sum = {0, 0, 0};
+    lrcsi_outline_areas sum = {.gain = 0};
     double from[2] = {0, 0};
     int count = 0;
     for (uint32_t e = 0; e < topology->edge_count; e++) {
@@ -194,10 +194,17 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     from[1] /= count;
     double gain = 0;
     double loss = 0;
+    double deepest[2] = {0, 0};    /* of all edges: the bounds, and the truth */
+    const double err = 1e-5 * o.k; /* of the measured exits */
     for (uint32_t e = 0; e < topology->edge_count; e++) {
         const double *a = view.point[topology->edge[e].low].x;
         const double *b = view.point[topology->edge[e].high].x;
-        for (int i = 0; i < RAYS && contour_side(&o, e) != 0; i++) {
+        const int side = contour_side(&o, e);
+        const lrcsi_outline_areas areas = lrcsi_outline_areas_make(&o, a, b, side);
+        const double length = hypot(b[0] - a[0], b[1] - a[1]);
+        const double height =
+            fabs((a[0] - from[0]) * (b[1] - a[1]) - (a[1] - from[1]) * (b[0] - a[0])) / length;
+        for (int i = 0; i < RAYS && side != 0; i++) {
             const double piece[2] = {(b[0] - a[0]) / RAYS, (b[1] - a[1]) / RAYS};
             const double p[2] = {a[0] + (i + 0.5) * piece[0] - from[0],
                                  a[1] + (i + 0.5) * piece[1] - from[1]};
@@ -206,9 +213,18 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
                           (1 - truth * truth / (p[0] * p[0] + p[1] * p[1]));
             gain += fmax(0, area);
             loss += fmax(0, -area);
+            const double depth = height * (1 - truth / hypot(p[0], p[1]));
+            check_most(depth, areas.gain_depth * 1.01 + err);
+            check_most(-depth, areas.loss_depth * 1.01 + err);
+            deepest[1] = fmax(deepest[1], fabs(depth));
+        }
+        if (side != 0) {
+            deepest[0] = fmax(deepest[0], fmax(areas.gain_depth, areas.loss_depth));
         }
     }
-    double err = 1e-5 * o.k; /* of the measured exits */
+    if (isfinite(deepest[0])) {
+        check_most(deepest[0], 4 * deepest[1] + err);
+    }
     check_most(gain, sum.gain * 1.01 + err);
     check_most(loss, sum.loss * 1.01 + err);
     if (isfinite(sum.gain)) { /* the bounds are not far too wide */

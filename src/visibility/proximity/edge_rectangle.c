@@ -113,12 +113,18 @@ lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
     return slice;
 }
 
+lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side,
+                                       double depth)
+{
+    const double inward = box->reverse ? -side : side;
+    const double into[3] = {-inward * box->along[1], inward * box->along[0], 0};
+    lrcsi_slice_cut(&slice, into, box->a, depth + box->err);
+    return slice;
+}
+
 lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side)
 {
-    double outward = box->reverse ? -side : side;
-    const double away[3] = {outward * box->along[1], -outward * box->along[0], 0};
-    lrcsi_slice_cut(&slice, away, box->a, box->err);
-    return slice;
+    return lrcsi_edge_rectangle_limit(slice, box, -side, 0);
 }
 
 /* Let q be a point of the edge and y one of the facet, at most `slack` apart in projection, q - y =

@@ -36,6 +36,11 @@ lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
 int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
                                const double q[3]);
 
+/* What of a slice may not be farther than `depth` from the edge's line to the left of it (side 1),
+   or to the right (-1), seen from low to high. */
+lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side,
+                                       double depth);
+
 /* What of a slice in the rectangle may lie to the left (side 1) or to the right (-1) of the edge,
    seen from low to high. */
 lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side);

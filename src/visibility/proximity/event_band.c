@@ -43,8 +43,8 @@
    or a plane separates it from P behind it (visibility/proximity/part_order.c), (1) need not be
    considered, and y is gained or lost along the event edge of (2) that is nearest to it, and there
    only within the region of outline.c, 2. In it delta is the distance in projection of x from y,
-   and for the plane of a facet the error of outline.c, 1, as well. So along each edge the smaller
-   of two areas counts: that of the rectangle and that of the region.
+   and for the plane of a facet the error of outline.c, 1, as well. So of the rectangle along
+   each edge only what is within the region's depths counts, and at most the area of the region.
 
    5. Aligned points. Let x now be the point of the true surface whose projection is that of
    y, so that both lie on a line along d, at a distance of at most 30 e_P. Let every other part Q be
@@ -93,6 +93,7 @@
 
 #include <math.h>
 
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/index/event.h"
@@ -196,27 +197,34 @@ static lrcsi_outline_areas event_areas(const lrcsi_event_bands *bands, uint32_t 
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
     const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
     return lrcsi_event_rim_is_inside(bands, event)
-               ? (lrcsi_outline_areas){0, 0, 0}
+               ? (lrcsi_outline_areas){0, 0, 0, 0, 0}
                : lrcsi_outline_areas_make(outline, view->point[edge->low].x,
                                           view->point[edge->high].x, bands->events.side[event]);
 }
 
-/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
-   event edge; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
-static void outline_fractions(const lrcsi_event_bands *bands, uint32_t facet, uint32_t event,
-                              double delta, double *gain, double *loss)
+/* The region along an event edge in which something of a facet, behind the event's part, can be
+   gained or lost; infinite if nothing is known. delta: as in visibility/proximity/outline.h. */
+static lrcsi_outline_areas outline_region(const lrcsi_event_bands *bands, uint32_t event,
+                                          double delta)
 {
-    const lrcsi_view *view = bands->view;
     const lrcsi_outline *outline = &bands->orders.outline[bands->events.part[event]];
-    double projected = lrcsi_view_projected(view, facet);
-    double whole = 0.5 * view->prepared->normal[facet].length;
-    const lrcsi_outline_areas *areas = &bands->areas[event];
-    *gain = *loss = HUGE_VAL;
-    if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
-        return;
+    lrcsi_outline_areas region = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, 0};
+    if (delta <= outline->k) {
+        region = bands->areas[event];
+        region.gain += region.width * delta;
+        region.loss += region.width * delta;
+        region.gain_depth += LRCSI_ROOT_2_OUTWARD * delta;
+        region.loss_depth += LRCSI_ROOT_2_OUTWARD * delta;
     }
-    *gain = (areas->gain + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
-    *loss = (areas->loss + areas->width * delta) / projected * (1 + LRCSI_VIEW_COS_ERR);
+    return region;
+}
+
+/* The fraction of a facet that an area in projection is; infinite if the facet is too oblique. */
+static double fraction_of(const lrcsi_view *view, uint32_t facet, double area)
+{
+    const double projected = lrcsi_view_projected(view, facet);
+    const double whole = 0.5 * view->prepared->normal[facet].length;
+    return projected > COS_MIN * whole ? area / projected * (1 + LRCSI_VIEW_COS_ERR) : HUGE_VAL;
 }
 
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
@@ -246,7 +254,7 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
    3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
    4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
       the inner side as gain, on the outer side as loss;
-   5. but no more than the area between outlines, where the part is in front of the facet.
+   5. but only what lies in the region between outlines, where the part is in front of the facet.
    Returns 0 if there are none. */
 int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
                           int correspondence, lrcsi_event_band *f)
@@ -289,28 +297,35 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
                                      bands->view->point[vertex[2]].x};
     double whole = 0.5 * p->normal[facet].length; /* 4 */
     double longest = lrcsi_proximity_longest(p, facet);
+    lrcsi_outline_areas region = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, 0};
+    if (in_front && side != 0) { /* 5 */
+        const double delta = (correspondence == LRCSI_ALIGNED ? 0 : at->lateral) + err;
+        region = outline_region(bands, event, delta);
+        slice = lrcsi_edge_rectangle_limit(slice, &box, side, region.gain_depth);
+        slice = lrcsi_edge_rectangle_limit(slice, &box, -side, region.loss_depth);
+        if (slice.count == 0) {
+            return f->unproved > 0;
+        }
+    } else {
+        f->unproved = 0;
+    }
     f->rows = lrcsi_proximity_rows(p, facet, corner, &slice);
     f->area = f->gain = f->loss = lrcsi_slice_fraction(&slice, whole, longest);
     if (side == 0) {
-        f->unproved = 0;
         return 1;
     }
     lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
     lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
-    if (gain_is_inside(bands, at, bands->events.part[event])) {
+    if (isfinite(region.gain_depth) || gain_is_inside(bands, at, bands->events.part[event])) {
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
-    if (in_front) { /* 5 */
-        double delta = (correspondence == LRCSI_ALIGNED ? 0 : at->lateral) + err;
-        double gain;
-        double loss;
-        outline_fractions(bands, facet, event, delta, &gain, &loss);
+    if (isfinite(region.gain)) {
+        const double gain = fraction_of(bands->view, facet, region.gain);
+        const double loss = fraction_of(bands->view, facet, region.loss);
         f->area = lrcsi_min(f->area, gain + loss);
         f->gain = lrcsi_min(f->gain, gain);
         f->loss = lrcsi_min(f->loss, loss);
-    } else {
-        f->unproved = 0;
     }
     return 1;
 }

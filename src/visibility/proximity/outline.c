@@ -30,7 +30,8 @@
    - Loss (y outside K'): the nearest point may also be an end of the edge, so
      -2 k <= t <= L + 2 k. K lies within its tangents at the points q_j, so
      0 <= -depth <= -tangents(t) + sqrt(2) delta.
-   The areas of these two regions are integrals over t of piecewise linear functions.
+   The areas of these two regions are integrals over t of piecewise linear functions, and the
+   largest depths are values of these at the ends of their pieces.
 
    3. Signed area. The depth of the boundary of K is a convex function of t, where K reaches over
    the edge by 2 k at both ends. So it lies between the polygon and the tangents of 2, and its
@@ -233,10 +234,10 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
     return 1;
 }
 
-/* Along an edge: the areas between it and the polygon, and the tangents (2); the integrals of these
-   two over it (3). */
+/* Along an edge: the areas between it and the polygon, and the tangents, and the largest depths of
+   these, or 0 (2); the integrals of these two over the edge (3). */
 typedef struct outline_sums {
-    double gain, loss, polygon, tangents;
+    double gain, loss, gain_depth, loss_depth, polygon, tangents;
 } outline_sums;
 
 /* Adds what lies between support points p and q. Returns 0 if the polygon is too steep. */
@@ -256,10 +257,14 @@ static int sums_add(const outline_edge *edge, const outline_point *p, const outl
     const double turn = q->slope - p->slope;
     double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
     meet = lrcsi_min(high, lrcsi_max(low, meet));
-    sums->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
-                                    -(p->depth + p->slope * (meet - p->t)));
-    sums->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
-                                    -(q->depth + q->slope * (high - q->t)));
+    const double from_p[2] = {-(p->depth + p->slope * (low - p->t)),
+                              -(p->depth + p->slope * (meet - p->t))};
+    const double to_q[2] = {-(q->depth + q->slope * (meet - q->t)),
+                            -(q->depth + q->slope * (high - q->t))};
+    sums->loss += integral_positive(low, meet, from_p[0], from_p[1]);
+    sums->loss += integral_positive(meet, high, to_q[0], to_q[1]);
+    sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(from_p[0], from_p[1]));
+    sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(to_q[0], to_q[1]));
     const double from = lrcsi_max(p->t, 0);
     const double to = lrcsi_min(q->t, edge->length);
     if (to > from) {
@@ -267,6 +272,7 @@ static int sums_add(const outline_edge *edge, const outline_point *p, const outl
         const double at_to = p->depth + chord * (to - p->t);
         meet = lrcsi_min(to, lrcsi_max(from, meet));
         sums->gain += integral_positive(from, to, at_from, at_to);
+        sums->gain_depth = lrcsi_max(sums->gain_depth, lrcsi_max(at_from, at_to));
         sums->polygon += 0.5 * (to - from) * (at_from + at_to);
         sums->tangents += (meet - from) * (p->depth + p->slope * (0.5 * (from + meet) - p->t));
         sums->tangents += (to - meet) * (q->depth + q->slope * (0.5 * (meet + to) - q->t));
@@ -282,7 +288,7 @@ static int outline_sums_make(const outline_edge *edge, int per_side, outline_sum
     const double before = slope_reaching(edge, -1, -beyond);
     const double after = slope_reaching(edge, 1, edge->length + beyond);
     outline_point last = outline_point_at(edge, -before);
-    *sums = (outline_sums){0, 0, 0, 0};
+    *sums = (outline_sums){.gain = 0};
     if (last.t > -beyond) {
         return 0;
     }
@@ -315,12 +321,14 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     outline_edge edge;
     outline_sums sums;
     if (!outline_edge_make(o, a, b, side, &edge) || !outline_sums_make(&edge, POINTS_SIDE, &sums)) {
-        return (lrcsi_outline_areas){HUGE_VAL, HUGE_VAL, 0};
+        return (lrcsi_outline_areas){HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, 0};
     }
     const double width = outline_width(&edge);
-    const double err = depth_err(o, a, b) * width;
-    return (lrcsi_outline_areas){(sums.gain + err) * LRCSI_OUTWARD_SUM,
-                                 (sums.loss + err) * LRCSI_OUTWARD_SUM, width};
+    const double err = depth_err(o, a, b);
+    return (lrcsi_outline_areas){(sums.gain + err * width) * LRCSI_OUTWARD_SUM,
+                                 (sums.loss + err * width) * LRCSI_OUTWARD_SUM,
+                                 (sums.gain_depth + err) * LRCSI_OUTWARD_SUM,
+                                 (sums.loss_depth + err) * LRCSI_OUTWARD_SUM, width};
 }
 
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],

@@ -40,11 +40,14 @@ int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, i
 int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
                            double *err);
 
-/* Upper bounds of the areas in projection, along one edge, where points y may be gained and lost;
-   to both, `width` times delta is to be added. If nothing is known, gain and loss are infinite, and
-   width is 0. */
+/* Upper bounds of the areas in projection, along one edge, where points y may be gained and lost,
+   and of the distances of such points from the edge. `width` times delta is to be added to the
+   areas, LRCSI_ROOT_2_OUTWARD times delta to the distances. If nothing is known, these four are
+   infinite, and width is 0. */
 typedef struct lrcsi_outline_areas {
-    double gain, loss, width;
+    double gain, loss;
+    double gain_depth, loss_depth;
+    double width;
 } lrcsi_outline_areas;
 
 /* Given: a contour edge of the part from a to b in view coordinates; the side of its facets, 1 left
