@@ -138,8 +138,8 @@ void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries);
 
 /* Makes the attempt attempts->current: finds visible areas. Returned: how it ended and, if they
-   were found, run->areas, without round_terms and face, and run->outcome, without its total. Status:
-   LRCS_OK, however it ended; others as lrcs_sigma_run. */
+   were found, run->areas, without round_terms and face, and run->outcome, without its total.
+   Status: LRCS_OK, however it ended; others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* Releases the memory that rasters share: before other memory is taken that is to stay. */
@@ -164,8 +164,8 @@ int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);
 lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records);
 
 /* What the sum needs beside the areas that samples or clipping found: proofs about them, integrals
-   over curved normals and over visible pieces, which complete run->areas. Steps are taken from the
-   given meter, which is that of the attempt that found them. */
+   over curved normals, margins on flat faces and integrals over visible pieces, which complete
+   run->areas. Steps are taken from the given meter, that of the attempt that found them. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter);
 
 /* Fills run->outcome.total where no shadows are searched for. */

@@ -56,7 +56,7 @@ static int clip_facets(lrcsi_sigma *run, lrcsi_meter *meter)
 /* Clips, within the limit of the attempt if it has one: classifies, unless that is done, and clips
    undecided facets. Steps may run out in either. What an attempt leaves in the work area that has
    not found areas is released by lrcsi_attempts_end, except a classification that is complete.
-   Any failure but for lack of memory is one of the run. */
+   Any other failure than lack of memory ends the run. */
 static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
     const int limited = lrcsi_attempt_is_limited(attempt);

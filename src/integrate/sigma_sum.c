@@ -129,8 +129,8 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    1. replaces areas by what is proved about them;
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
-   3. masks what is hidden of the proximity band, and integrates over the visible pieces of
-      round walls.
+   3. masks the facets of the proximity band that are hidden, chooses the flat faces whose margins
+      are used, and integrates over the visible pieces of round walls.
    Steps are taken from the given meter, that of the attempt. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {

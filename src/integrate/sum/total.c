@@ -181,8 +181,8 @@ static void total_finish(lrcsi_total_run *run)
     total->visibility = lrcsi_prepared_bound(p, sums->visibility * outward);
     double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
     total->tessellation = lrcsi_prepared_bound(p, either * outward);
-    /* Corrections and the terms of round walls may be negative: their own rounding bounds count u
-       of their size at least, more than the sums lose by them. */
+    /* Corrections and the terms of round walls may be negative: each has a rounding bound of at
+       least u times its size, more than the compensated sums lose by it. */
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = lrcsi_prepared_bound(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);

@@ -15,7 +15,7 @@
 /* More than the rounding error of angles. */
 #define ANGLE_ERR 1e-9
 
-/* A side of the rim, and what is under it of the inside. */
+/* A side of the rim, and the facets of the inside under it. */
 typedef struct rim_side {
     lrcsi_round_side at;
     uint32_t facet; /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is

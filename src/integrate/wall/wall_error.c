@@ -29,8 +29,8 @@ double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_p
        |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).
    At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i.
    Where a scale that differs between axes stretches areas unevenly, the stretch over E and its mean
-   over the patch are both within a factor of 1 + stretch_err of that of the facet: T - M has also
-   F^ times their difference, at most ((1 + stretch_err)^2 - 1) F_i per unit of E. */
+   over the patch are both within a factor of 1 + stretch_err of that of the facet: T - M also
+   contains F^ times their difference, at most ((1 + stretch_err)^2 - 1) F_i per unit of E. */
 static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
                                  lrcsi_patch_deviation *deviation)
 {

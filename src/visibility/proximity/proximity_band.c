@@ -357,7 +357,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
    4. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
-      who uses them compares the areas that they stand for with the facet's. */
+      their users compare the areas that they stand for with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;
