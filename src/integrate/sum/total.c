@@ -220,7 +220,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         records_start(&run);
     }
     int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
-    run.tessellation = replaced && lrcsi_tessellation_known(p, plan);
+    run.bounds_tessellation = replaced && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         lrcsi_total_add_material(&run, i);
     }
@@ -229,7 +229,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
             add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
-    if (run.tessellation) {
+    if (run.bounds_tessellation) {
         add_tessellation_errors(&run);
     }
     total_finish(&run);
@@ -239,7 +239,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         }
         part_error[i] = lrcsi_prepared_area(p, part_error[i]);
     }
-    if (replaced && !run.tessellation) {
+    if (replaced && !run.bounds_tessellation) {
         run.total.tessellation = -1;
     }
     return run.total;

@@ -318,11 +318,11 @@ static void add_pairs(band_job *job)
     for (size_t i = 0; i < p->proximity.count; i++) {
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
-        int shut = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
+        int closed = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
         uint32_t other = p->scene->facet_part[pair->other];
         double err;
         double unproved;
-        if (facing == 0 || (facing < 0 && shut)) {
+        if (facing == 0 || (facing < 0 && closed)) {
             continue;
         }
         if (lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved) ||
