@@ -6,7 +6,8 @@
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
    Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
    (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
-   pieces of its round wall, as the mean over its patch, or from its normal.
+   pieces of its round wall, as the mean over its patch, or from its normal. The margins of a flat
+   face (lrcsi_flat_face_area) are added to the visible area of one of its facets.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"

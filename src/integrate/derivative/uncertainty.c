@@ -547,9 +547,10 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = lrcsi_sigma_request_make(prepared, options, work, &request);
     request.derivatives = !prepared->has_curved_normals; /* those take runs of their own */
     size_t start = work->used;
+    /* 1 */
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
-    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
+    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) { /* 2 */
         for (uint32_t i = 0; i < materials; i++) {
             const lrcs_material *m = &scene->material[i];
             const node_axis s_axis = axis_of_s(m, nodes);
@@ -574,11 +575,11 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     work->used = status == LRCS_OK ? start : work->used;
     const response_node *own = memory.node + (size_t)(nodes / 2) * materials;
-    for (uint32_t i = 0; i < materials && status == LRCS_OK; i++) {
+    for (uint32_t i = 0; i < materials && status == LRCS_OK; i++) { /* 3 */
         lrcs_sensitivity d = sensitivity_of(&scene->material[i].brdf, &own[i]);
         status = isfinite(d.dA + d.dB + d.ds + d.dm) ? LRCS_OK : LRCS_E_NUMBER;
     }
-    if (status == LRCS_OK) {
+    if (status == LRCS_OK) { /* 4 to 6 */
         status = estimate_make(scene, answer.sigma_m2, memory.node, nodes, how, work, &estimate);
     }
     if (status == LRCS_OK) {

@@ -6,11 +6,13 @@
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
    fraction 1e-9 + 2 u per facet, for their own rounding: 2 u per facet for the sums, and far more
    than the few operations on each term need. The steps of lrcsi_total_make:
-   1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
+   1. negligible_remainder, if facets represent patches: how accurate the means over these must be;
+   2. records_start, if records are asked for: all of them except sigma;
+   3. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
       doubles (total_packet.c), the others one by one (total_facet.c);
-   2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
-   3. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
-   4. total_finish: conversion to square metres, and the rounding of the sums. */
+   4. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
+   5. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
+   6. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/sum/total.h"
 
 #include <math.h>
@@ -212,27 +214,27 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (areas->moment) {
         memset(details->corrected, 0, p->scene->facet_count);
     }
-    if (plan->patches) {
+    if (plan->patches) { /* 1 */
         run.patches.negligible = negligible_remainder(&run);
         run.total.negligible_remainder = run.patches.negligible;
     }
-    if (details->records) {
+    if (details->records) { /* 2 */
         records_start(&run);
     }
     int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
     run.bounds_tessellation = replaced && lrcsi_tessellation_known(p, plan);
-    for (uint32_t i = 0; i < p->scene->material_count; i++) {
+    for (uint32_t i = 0; i < p->scene->material_count; i++) { /* 3 */
         lrcsi_total_add_material(&run, i);
     }
-    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) {
+    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) { /* 4 */
         if (run.clear->part[i]) {
             add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
-    if (run.bounds_tessellation) {
+    if (run.bounds_tessellation) { /* 5 */
         add_tessellation_errors(&run);
     }
-    total_finish(&run);
+    total_finish(&run); /* 6 */
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         if (i >= LRCSI_PART_SET_SINGLE && run.shared_error > 0) {
             part_error[i] += run.shared_error * (p->scene->part[i].bounds.reach / run.shared_reach);

@@ -97,7 +97,9 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
                                        facet - job->part->first_facet, &at) &&
                 at.row == 0 && lrcsi_round_sector_make(job->wall, facet, sector) &&
                 sector->facet[0] == facet;
-    *number = at.sector;
+    if (found) {
+        *number = at.sector;
+    }
     return found;
 }
 

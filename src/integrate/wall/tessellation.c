@@ -227,7 +227,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
         at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band);
     }
-    lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 5 */
+    lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 6 */
                                at.fractions.loss * at.deviation.of_f.value_max, 0, 0, 0};
     if (is_curved) {
         at.fractions.gain += seen;
