@@ -20,7 +20,7 @@ double lrcsi_sigma_bound(const lrcsi_total *total)
    accept estimates, the estimated error of sampled areas replaces the proved bound. There is no
    such estimate in three cases: sigma is 0, because no sample has met anything that reflects; the
    depth order at a sample is undecided, because its owner is then a guess; the steps are spent,
-   because undecided facets then count by half. */
+   because undecided facets then count half. */
 uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run)
 {
     const lrcsi_outcome *outcome = &run->outcome;
