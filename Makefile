@@ -215,7 +215,7 @@ bounds: $(LIB)
 	    $(BUILD)/test/hostile/bounds $(BUILD)/test/hostile/$$kind || exit 1; \
 	done
 # Areas by cells of the view plane against the clipping that they replaced, on MODELS from AGREE
-# directions each.
+# directions each: third-party models beside the checkout, not part of the repository.
 agree: $(LIB)
 	@mkdir -p $(BUILD)/test/visibility
 	$(CC) $(STD) $(OPT) $(WARN) -Iinclude -Isrc -Itest -o $(BUILD)/test/visibility/agree \
@@ -247,8 +247,9 @@ SHADOWS_SCENES = 420
 SHADOWS_SEED   = 1
 
 # What loading, preparing and whole poses cost on this machine: real models, generated scenes and
-# hard cases, beside OpenGL and Embree where BENCH_PEERS names the folder they are built in. Tables,
-# $(BENCH_DIR)/bench.csv and bench.svg (BENCH_FLAGS=--quick: a minute; "--only aura": one scene).
+# hard cases (both from beside the checkout, not part of the repository), beside OpenGL and Embree
+# where BENCH_PEERS names the folder they are built in. Tables, $(BENCH_DIR)/bench.csv and bench.svg
+# (BENCH_FLAGS=--quick: a minute; "--only aura": one scene).
 bench: $(BENCH_DIR)/bench
 	$(BENCH_DIR)/bench $(BENCH_FLAGS) --csv $(BENCH_DIR)/bench.csv --plot $(BENCH_DIR)/bench.svg \
 	    --scratch $(BENCH_DIR) $(BENCH_PEERS:%=--peers %) $(BENCH_CASES:%=--cases %) $(BENCH_MODELS)

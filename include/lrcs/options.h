@@ -109,7 +109,7 @@ typedef struct lrcs_run_options {
    shadows, although proved never visible; a term of amplitude 0 is evaluated. If self-shadowing is
    left out, visible back sides are not searched for: nothing could hide them.
    3. When `steps` is used up, a run stops refining. Facets, or parts of them, whose visibility is
-   then unknown count by half (with curved normals possibly not at all) and widen the bound; so do
+   then unknown count half (with curved normals possibly not at all) and widen the bound; so do
    visible parts over which curved normals would have been integrated more closely.
    LRCS_FLAG_STEPS_SPENT is set. The steps count work that grows faster than the scene, and are the
    same on every machine (over curved normals except for libm's last bits). Passes over facets,

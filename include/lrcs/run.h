@@ -48,8 +48,9 @@ typedef struct lrcs_budget {
 /* The result for one facet. The sigma of a shape evaluated by its closed form is distributed over
    its facets in proportion to what they would reflect. If only a sliver of the shape is lit and
    none of its facets faces the laser, no record contains its sigma. What lies between the
-   facets and the true surface of a partly hidden sphere, dome or paraboloid counts to a facet
-   beside it. */
+   facets and the true surface of a partly hidden sphere, dome or paraboloid is part of the record
+   of a facet beside it. That of the most visible facet of a flat end or disc includes what true
+   curved shapes in front leave visible of the whole face, more or less than their facets do. */
 typedef struct lrcs_facet_record {
     double area_m2;         /* of the facet itself; 0 for degenerate and omitted ones */
     double cos_theta;       /* of the incidence angle; negative if the back faces the laser */

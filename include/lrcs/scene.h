@@ -117,7 +117,7 @@ enum lrcs_facets_only {
 typedef struct lrcs_build_options {
     double tolerance;    /* relative, > 0. A shape alone is tessellated for this tolerance. Among
                             other parts small shapes may be coarser, and each facet of a curved wall
-                            counts with the mean over the true surface, so that only shadows require
+                            stands for the mean over the true surface, so that only shadows require
                             facets: a sphere, dome or paraboloid is tessellated for 1e-4 at the
                             finest; where a scale differs between axes, for ten times the tolerance,
                             at least 1e-4 */

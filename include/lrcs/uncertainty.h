@@ -74,8 +74,8 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    the same sample on every machine. sigma at drawn s and m is interpolated between 17 nodes (9 with
    curved normals) by cubics in its logarithm, with the slopes there. At the materials' own s and m
    these are sigma and its derivatives. At the other nodes partly visible spheres, domes and
-   paraboloids count with means over patches; a factor makes value and slope of each material's term
-   right at its own s and m. */
+   paraboloids are computed from means over patches; a factor makes value and slope of each
+   material's term right at its own s and m. */
 int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                          const lrcs_run_options *options, const lrcs_uncertainty_options *how,
                          lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,

@@ -111,25 +111,24 @@ static int run_is_unshadowed(const lrcsi_sigma *run)
 static int run_allocate(lrcsi_sigma *run)
 {
     const lrcs_prepared *p = run->view.prepared;
+    lrcsi_sigma_memory *memory = &run->memory;
     uint32_t facets = p->scene->facet_count;
     int areas = !run_is_unshadowed(run) || p->has_curved_normals;
-    run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
+    memory->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *memory->visible) : NULL;
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
-    run->moment_memory =
-        moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
+    memory->moment = moments ? lrcsi_work_take(run->work, facets, sizeof *memory->moment) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    run->round_terms_memory =
-        moments ? lrcsi_work_take(run->work, facets, sizeof *run->round_terms_memory) : NULL;
+    memory->round_terms =
+        moments ? lrcsi_work_take(run->work, facets, sizeof *memory->round_terms) : NULL;
     int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;
-    run->face_memory =
-        faces ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *run->face_memory) : NULL;
+    memory->face =
+        faces ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *memory->face) : NULL;
     run->curve_terms =
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
-    return (run->visible || !areas) &&
-                   ((run->moment_memory && run->corrected && run->round_terms_memory) ||
-                    !moments) &&
-                   (run->face_memory || !faces) &&
+    return (memory->visible || !areas) &&
+                   ((memory->moment && run->corrected && memory->round_terms) || !moments) &&
+                   (memory->face || !faces) &&
                    ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;

@@ -36,6 +36,14 @@ typedef struct lrcsi_sigma_request {
     double *part_error; /* room for [part_count], as in lrcs_run_options; NULL: not asked for */
 } lrcsi_sigma_request;
 
+/* Room for what the stages find, as far as the plan's method needs it. */
+typedef struct lrcsi_sigma_memory {
+    lrcsi_visible_area *visible;    /* [facet_count]; NULL: the plan implies all areas */
+    lrcsi_moment *moment;           /* [facet_count]; NULL: moments are not wanted */
+    lrcsi_round_terms *round_terms; /* [facet_count]; NULL: pieces are not wanted */
+    lrcsi_flat_face *face;          /* [part_count]; NULL: no margins on flat faces are wanted */
+} lrcsi_sigma_memory;
+
 /* The state of a run and, at its end, what the stages found. */
 typedef struct lrcsi_sigma {
     lrcsi_sigma_request request;
@@ -46,17 +54,11 @@ typedef struct lrcsi_sigma {
     lrcsi_plan plan;          /* is not changed once it is made */
     int classified;           /* the classification is made, and the bands if the plan needs them */
     lrcsi_classification classification;
-    lrcsi_proximity_band band;   /* is not changed once it is made */
-    lrcsi_masked_band masked;    /* the band, less what an attempt has found to be hidden */
-    lrcsi_visible_area *visible; /* [facet_count]; NULL: the plan implies all areas */
-    const unsigned char *answer; /* as in lrcsi_areas */
-    lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
-    const lrcsi_moment *moment;  /* as in lrcsi_areas */
-    unsigned char *corrected;    /* as in lrcsi_total_details */
-    lrcsi_round_terms *round_terms_memory; /* [facet_count]; NULL: pieces are not wanted */
-    const lrcsi_round_terms *round_terms;  /* as in lrcsi_areas */
-    lrcsi_flat_face *face_memory;   /* [part_count]; NULL: no margins on flat faces are wanted */
-    const lrcsi_flat_face *face;    /* as in lrcsi_areas */
+    lrcsi_proximity_band band; /* is not changed once it is made */
+    lrcsi_masked_band masked;  /* the band, less what an attempt has found to be hidden */
+    lrcsi_sigma_memory memory;
+    lrcsi_areas areas;              /* what the last attempt found */
+    unsigned char *corrected;       /* as in lrcsi_total_details */
     lrcsi_curve_terms *curve_terms; /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;     /* NULL: all normals are flat */
     lrcsi_outcome outcome;
@@ -136,8 +138,8 @@ void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries);
 
 /* Makes the attempt attempts->current: finds visible areas. Returned: how it ended and, if they
-   were found, the areas and run->outcome, without its total. Status: LRCS_OK, however it ended;
-   others as lrcs_sigma_run. */
+   were found, run->areas, without round_terms and face, and run->outcome, without its total.
+   Status: LRCS_OK, however it ended; others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
 
 /* Releases the memory that rasters share: before other memory is taken that is to stay. */
@@ -162,8 +164,8 @@ int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);
 lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records);
 
 /* What the sum needs beside the areas that samples or clipping found: proofs about them, integrals
-   over curved normals and over visible pieces. Steps are taken from the given meter, which is that
-   of the attempt that found them. */
+   over curved normals, margins on flat faces and integrals over visible pieces, which complete
+   run->areas. Steps are taken from the given meter, that of the attempt that found them. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter);
 
 /* Fills run->outcome.total where no shadows are searched for. */

@@ -36,25 +36,27 @@ void lrcsi_sigma_release_decisions(lrcsi_sigma *run, lrcsi_attempts *attempts)
    facets. */
 static int clip_facets(lrcsi_sigma *run, lrcsi_meter *meter)
 {
+    const lrcsi_sigma_memory *memory = &run->memory;
+    run->areas = (lrcsi_areas){.visible = memory->visible};
     if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
-        return lrcsi_curve_from_pieces(&run->classification, &options, run->work, run->visible,
+        return lrcsi_curve_from_pieces(&run->classification, &options, run->work, memory->visible,
                                        run->curve_terms);
     }
     int sum_only = !run->view.prepared->has_curved_shapes && !lrcsi_sigma_has_proofs(run);
     int status =
         lrcsi_occlude_all(&run->classification, meter, run->request.options->progress, run->work,
-                          sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
+                          sum_only ? &run->areas.answer : NULL, memory->visible, memory->moment);
     /* Moments must belong to the areas (areas_apply_proofs). Where steps ran out, areas are
        uncertain, and corrections by moments would make bounds grow where more steps are left. */
-    run->moment = run->plan.fronts_visible || meter->spent ? NULL : run->moment_memory;
+    run->areas.moment = run->plan.fronts_visible || meter->spent ? NULL : memory->moment;
     return status;
 }
 
 /* Clips, within the limit of the attempt if it has one: classifies, unless that is done, and clips
    undecided facets. Steps may run out in either. What an attempt leaves in the work area that has
    not found areas is released by lrcsi_attempts_end, except a classification that is complete.
-   Any failure but for lack of memory is one of the run. */
+   Any other failure than lack of memory ends the run. */
 static int search_by_clipping(lrcsi_sigma *run, const lrcsi_cost *cost, lrcsi_attempt *attempt)
 {
     const int limited = lrcsi_attempt_is_limited(attempt);
@@ -100,17 +102,16 @@ static int draw_raster(lrcsi_sigma *run, lrcsi_attempts *attempts)
             return status;
         }
     }
-    run->answer = NULL;
-    run->moment = NULL;
+    run->areas = (lrcsi_areas){.visible = run->memory.visible};
     size_t mark = run->work->used;
     uint32_t size = attempt->size;
     do {
         status =
             attempt->samples_only
-                ? lrcsi_preview_make(&run->view, size, progress, run->work, run->visible,
+                ? lrcsi_preview_make(&run->view, size, progress, run->work, run->memory.visible,
                                      &undecided)
                 : lrcsi_visible_areas_from_samples(&attempts->decisions, size, progress, run->work,
-                                                   &raster, run->visible, &undecided);
+                                                   &raster, run->memory.visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
         size /= 2;

@@ -20,7 +20,7 @@ double lrcsi_sigma_bound(const lrcsi_total *total)
    accept estimates, the estimated error of sampled areas replaces the proved bound. There is no
    such estimate in three cases: sigma is 0, because no sample has met anything that reflects; the
    depth order at a sample is undecided, because its owner is then a guess; the steps are spent,
-   because undecided facets then count by half. */
+   because undecided facets then count half. */
 uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run)
 {
     const lrcsi_outcome *outcome = &run->outcome;
@@ -56,10 +56,9 @@ static const lrcsi_masked_band *run_band(const lrcsi_sigma *run)
 
 lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->round_terms, run->face};
     lrcsi_total_details details = {records, run->request.part_error, run->corrected};
     lrcsi_progress_report(run->request.options->progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
-    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curve_terms, run_band(run),
+    return lrcsi_total_make(&run->view, &run->plan, &run->areas, run->curve_terms, run_band(run),
                             &run->clear, &details);
 }
 
@@ -68,16 +67,18 @@ lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
+    lrcsi_visible_area *visible = run->memory.visible;
     for (uint32_t f = 0; run->curve_terms && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        run->visible[f] = lrcsi_view_casts(view, f)
-                              ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
-                              : lrcsi_visible_area_exact(0);
+        visible[f] = lrcsi_view_casts(view, f)
+                         ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
+                         : lrcsi_visible_area_exact(0);
     }
     if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);
-        lrcsi_curve_from_areas(view, &options, run->visible, run->curve_terms);
+        lrcsi_curve_from_areas(view, &options, visible, run->curve_terms);
     }
+    run->areas = (lrcsi_areas){.visible = visible};
     run->outcome.total = lrcsi_sigma_sum(run, NULL);
 }
 
@@ -101,7 +102,7 @@ static void areas_apply_proofs(lrcsi_sigma *run)
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_visible_area *visible = &run->visible[f];
+        lrcsi_visible_area *visible = &run->memory.visible[f];
         int front = view->facing[f] > 0;
         if (front && run->plan.fronts_visible) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
@@ -128,11 +129,12 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    1. replaces areas by what is proved about them;
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
-   3. masks what is hidden of the proximity band, and integrates over the visible pieces of
-      round walls.
+   3. masks the facets of the proximity band that are hidden, chooses the flat faces whose margins
+      are used, and integrates over the visible pieces of round walls.
    Steps are taken from the given meter, that of the attempt. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {
+    const lrcsi_sigma_memory *memory = &run->memory;
     int sampled = run->outcome.size != 0;
     if (lrcsi_sigma_has_proofs(run)) {
         areas_apply_proofs(run);
@@ -140,23 +142,20 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run->curve_terms && sampled) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
         int status = lrcsi_curve_from_samples(&run->classification, &options, run->work,
-                                              run->visible, run->curve_terms);
+                                              memory->visible, run->curve_terms);
         if (status != LRCS_OK) {
-            lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curve_terms);
+            lrcsi_curve_from_areas(&run->view, &options, memory->visible, run->curve_terms);
             run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
         }
     }
-    run->round_terms = NULL;
-    run->face = NULL;
     if (run_band(run)) {
-        lrcsi_masked_band_find(&run->masked, run->visible, meter, run->work);
-        lrcsi_flat_faces_make(&run->masked, run->visible, run->face_memory);
-        run->face = run->face_memory;
+        lrcsi_masked_band_find(&run->masked, memory->visible, meter, run->work);
+        lrcsi_flat_faces_make(&run->masked, memory->visible, memory->face);
+        run->areas.face = memory->face;
     }
-    if (run_band(run) && run->moment) {
-        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, run->visible,
-                                run->request.derivatives, meter, run->work,
-                                run->round_terms_memory);
-        run->round_terms = run->round_terms_memory;
+    if (run_band(run) && run->areas.moment) {
+        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, memory->visible,
+                                run->request.derivatives, meter, run->work, memory->round_terms);
+        run->areas.round_terms = memory->round_terms;
     }
 }

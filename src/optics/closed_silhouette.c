@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The projected area of the surface of bodies of revolution that faces the laser, wall and ends.
-   An element of surface with unit normal n counts with the factor |n . s_hat|; the bodies are
-   convex, so that nothing hides it. Reported beside sigma, not part of it: no error bound is
-   derived. */
+   An element of surface with unit normal n is weighted by |n . s_hat|; the bodies are convex, so
+   that nothing hides it. Reported beside sigma, not part of it: no error bound is derived. */
 #include <math.h>
 
 #include "base/degrees.h"

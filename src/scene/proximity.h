@@ -61,8 +61,8 @@ double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
 /* 1 if a facet has rows. */
 int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 
-/* 1 if a facet is on the wall of a sphere, dome or paraboloid among other parts: only of these it
-   is asked which parts are near. */
+/* 1 if a facet is on the wall of a sphere, dome or paraboloid among other parts: `near` is filled
+   for these facets only. */
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *prepared, uint32_t facet);
 
 /* A facet's longest side, scaled. */

@@ -38,7 +38,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    triangle; a facet of which nothing is known to be visible has no pieces. The area in which the
    union of the pieces differs from the visible region is at most
        high - low + lrcsi_occlude_piece_err,
-   where high and low are those of the returned area, and the last term, for when `next` has
+   where high and low are those of the returned area, and the last term, valid once `next` has
    returned 0, is due to the rounding of the corners, 20 u reach perimeter with those of
    o->single.target, and to what cells leave out (o->single.piece_err). Without pieces it is 0. */
 static inline double lrcsi_occlude_piece_err(const lrcsi_occlusion *o)

@@ -72,9 +72,9 @@ why what_explains_as_well_is_named_too 1 '^why          winding: .*; or, equally
 run compare kit theirs.csv --pixels 96
 why what_the_window_cuts_off_is_told 1 '^why          wrong frame: R in place of its transpose.*; in [0-9]* cases less than that: part of the scene is outside'
 judged whole depth
-why depth_is_named 1 '^why          depth precision: skins 2^-14 m apart'
+why depth_is_named 1 '^why          depth precision: surfaces 2^-14 m apart'
 judged whole fight
-why facets_in_one_plane_are_named 1 '^why          coincident skins, decided by rounding or by order (z-fighting)'
+why facets_in_one_plane_are_named 1 '^why          coincident surfaces, decided by rounding or by order (z-fighting)'
 same and_are_the_one_reason "$(printf '%s\n' "$out" | grep -cE '^(why|unexplained)')" 1
 ./raster kit 64 >theirs.csv
 run compare kit theirs.csv
@@ -82,7 +82,7 @@ why a_coarser_raster_is_named 1 '^why          a raster of fewer than 512 x 512 
 same and_explains_all "$(printf '%s\n' "$out" | grep -c '^unexplained')" 0
 awk -F, -v OFS=, 'NR == 1 { print "scene,attitude,sigma_m2"; next } { print $1, $2, ($1 == "comb" && $2 == "f" ? 0.3853 : $13) }' kit/cases.csv >theirs.csv
 run compare kit theirs.csv
-why one_facet_in_the_plane_of_another_too 1 '^why          coincident skins, decided by rounding'
+why one_facet_in_the_plane_of_another_too 1 '^why          coincident surfaces, decided by rounding'
 ./raster kit 0 float >theirs.csv
 run compare kit theirs.csv --tier 2 --class exact
 why float_is_named 1 '^why          single precision'

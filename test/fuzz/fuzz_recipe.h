@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Bytes to a recipe: what a scene file says, or where it stops, in no more memory than is said. */
+/* Bytes to a recipe: what a scene file says, or where it stops, in no more memory than
+   lrcs_recipe_need. */
 #ifndef TEST_FUZZ_RECIPE_H
 #define TEST_FUZZ_RECIPE_H
 

@@ -262,8 +262,8 @@ static inline void fuzz_method(const lrcs_prepared *prepared, const lrcs_scene *
     }
 }
 
-/* Prepares the scene, in no more memory than is said for ordinary scenes or, where facets pierce
-   each other without number, in what it asks for. */
+/* Prepares the scene, in no more memory than lrcs_prepare_need states for ordinary scenes or, where
+   very many facets pierce each other, in what it then requests. */
 static inline fuzz_truth fuzz_scene(const lrcs_scene *scene, const fuzz_run *run)
 {
     const lrcs_prepared *prepared = NULL;

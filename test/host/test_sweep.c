@@ -34,7 +34,7 @@ static int demo_free(void **state)
     return 0;
 }
 
-/* What a sweep is asked, and what came of it. */
+/* The request of a sweep, and its results. */
 typedef struct sweep_seen {
     uint64_t fails_at;     /* this pose has no direction; UINT64_MAX: none */
     uint64_t refuses_at;   /* this result is not taken */

@@ -288,7 +288,7 @@ static void estimates_with_little_memory_and_few_steps_hold_the_truth(void **sta
     assert_true(fallbacks > 10 && clipped > 10 && drawn > 10);
 }
 
-/* A limit of steps that was reached is said to be spent, unless clipping was only tried before a
+/* A limit of steps that was reached is reported as spent, unless clipping was only tried before a
    raster that is accepted: then the reason says it. Otherwise the limit has changed nothing. */
 static void a_limit_of_steps_that_was_reached_is_named(void **state)
 {

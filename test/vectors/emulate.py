@@ -3,8 +3,8 @@
 """The paper's method as graphics hardware runs it, written a second time -> emulate.inc.
 
 Floats are numpy's float32 and Python's double, each operation by the processor itself; coverage is
-asked of every pixel and every facet, in whole numbers. What is computed is said in
-include/lrcs/emulate.h. Coordinates are multiples of 2^-20 below 1, the largest at least 1/2.
+decided for every pixel and every facet, in whole numbers. include/lrcs/emulate.h states what is
+computed. Coordinates are multiples of 2^-20 below 1, the largest at least 1/2.
 usage: emulate.py > emulate.inc (needs numpy)
 """
 import math

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Writes touch_pairs.inc: pairs of integer triangles and how each meets the open inside of the other.
+"""Writes intersection_pairs.inc: pairs of integer triangles and how each meets the open inside of the other.
 
 Found by clipping in rational arithmetic, which constructs the intersections that the library avoids:
 not in one plane, the cut of the one with the plane of the other, as a segment in barycentric
 coordinates of the other, clipped to where all three are positive; in one plane, the polygon that
-Sutherland and Hodgman's clipping leaves, and its area. usage: touch_pairs.py > touch_pairs.inc
+Sutherland and Hodgman's clipping leaves, and its area. usage: intersection_pairs.py > intersection_pairs.inc
 """
 import random
 from fractions import Fraction as F
@@ -147,7 +147,7 @@ def pair(i):
 
 
 def main():
-    print('/* Made by touch_pairs.py: how b meets the inside of a, how a meets that of b; whether b meets the')
+    print('/* Made by intersection_pairs.py: how b meets the inside of a, how a meets that of b; whether b meets the')
     print('   rim of a other than in corners of a or along a common side, and a that of b; then a, b. */')
     seen, i = {}, 0
     while sum(seen.values()) < 4000:

@@ -95,7 +95,7 @@ static void pairs_are_clear_or_not_as_they_stand(void **state)
     }
 }
 
-/* Whatever rounding does to where they stand, what touches is told from what does not. */
+/* However positions are rounded, bodies that touch are distinguished from those that do not. */
 static void turning_a_pair_with_the_laser_changes_nothing(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes of small integer coordinates seen along a vector of small integers. What is asked of them
-   is decided here in 64-bit integers: exactly, and independently of the library. */
+/* Scenes of small integer coordinates seen along a vector of small integers. Questions about them
+   are decided here in 64-bit integers: exactly, and independently of the library. */
 #ifndef TEST_INTEGER_VIEW_H
 #define TEST_INTEGER_VIEW_H
 

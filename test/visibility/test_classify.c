@@ -112,7 +112,7 @@ static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void *
     assert_int_equal(lrcsi_query_facet(&facets, 3, NULL), LRCSI_QUERY_HIDDEN);
 }
 
-/* What was found for a facet stays available until another is asked about. */
+/* What was found for a facet stays available until another one is searched for. */
 static void crossings_are_searched_for_once(void **state)
 {
     (void)state;

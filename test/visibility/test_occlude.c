@@ -102,7 +102,7 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
     double second = pieces_area(o, 1, &pieces, &answer);
     check_same(answer, second);
     check_rel(first + second, 0.75, 1e-14);
-    check_same(pieces_area(o, 0, &pieces, &answer), first); /* however often it is asked */
+    check_same(pieces_area(o, 0, &pieces, &answer), first); /* however often it is computed */
     check_same(answer, first);
 }
 

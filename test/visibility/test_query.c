@@ -100,7 +100,7 @@ static void check_queries(uint32_t facet)
     }
 }
 
-/* What is said of all of a facet holds at each of its points. */
+/* An answer about a whole facet holds at each of its points. */
 static void check_all_of_it(uint32_t facet, int hidden)
 {
     for (int i = 1; i < 11; i++) {

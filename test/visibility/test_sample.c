@@ -167,8 +167,8 @@ static void facets_with_a_common_corner_are_ordered_beside_it(void **state)
     }
 }
 
-/* Where two plates cross exactly on the line, one of them wins, whichever is asked first; beside it
-   each is the nearer on its side. */
+/* Where two plates cross exactly on the line, one of them wins, in whichever order they are
+   compared; beside it each is the nearer on its side. */
 static void crossing_plates_are_ordered_where_they_cross(void **state)
 {
     (void)state;

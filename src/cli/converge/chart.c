@@ -4,9 +4,11 @@
    draws them. */
 #include "cli/converge/converge.h"
 
+#include <float.h>
 #include <math.h>
 
-#define CHART_SERIES (3 * LRCS_HOST_CONVERGENCE_KINDS)
+#define CHART_SERIES   (3 * LRCS_HOST_CONVERGENCE_KINDS)
+#define CHART_ROUNDOFF (0.5 * DBL_EPSILON)
 
 /* The quantities of a setting, each a curve. */
 enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
@@ -121,10 +123,10 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
     snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(from->title));
     snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
              job->truth.text, job->truth.sigma_m2, s_hat[0], s_hat[1], s_hat[2]);
-    /* the smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which
-       a logarithmic axis cannot show */
+    /* the smallest value of the axis: the uncertainty of the truth, or the roundoff of a double;
+       never 0, which a logarithmic axis cannot show */
     double floor = lrcs_host_convergence_relative(job, job->truth.bound_m2);
-    floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
+    floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, CHART_ROUNDOFF) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
     for (int kind = 0; kind < LRCS_HOST_CONVERGENCE_KINDS; kind++) {
         /* the upper curve has the settings' names; a preview has the bound of its raster, which is

@@ -125,7 +125,7 @@ int cli_run_emulate(run_job *job)
     return 0;
 }
 
-/* ---- what is said of it ---- */
+/* ---- the report ---- */
 
 void cli_run_emulation_json(const run_job *job, lrcs_host_json *json)
 {

@@ -69,10 +69,10 @@ static void cases_divide(lrcsi_search *search)
     }
     list_shuffle(search->failing, search->failing_count);
     list_shuffle(search->passing, search->passing_count);
-    uint32_t witnesses =
+    uint32_t sampled =
         search->passing_count < PASSING_SAMPLE ? search->passing_count : PASSING_SAMPLE;
-    search->weight = witnesses > 0 ? (double)search->passing_count / witnesses : 0.0;
-    search->passing_count = witnesses;
+    search->weight = sampled > 0 ? (double)search->passing_count / sampled : 0.0;
+    search->passing_count = sampled;
 }
 
 double lrcsi_search_upper_median(double *value, uint32_t count)

@@ -141,7 +141,7 @@ static const char *const tier_text[LRCS_HOST_KIT_TIERS] = {
     "one plate: the angle, 4 pi, the cosines, the BRDF",
     "convex bodies: frames, handedness, materials, back faces", "bodies that shadow themselves",
     "satellites: many facets, narrow glints",
-    "hard cases: skins, slivers, far and tiny and huge, edge-on, piercing"};
+    "hard cases: close surfaces, slivers, far and tiny and huge, edge-on, piercing"};
 
 static void numbers_print(FILE *out, const double *value, int count)
 {

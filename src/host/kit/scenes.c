@@ -75,15 +75,15 @@ const lrcsi_vectors_attitude lrcsi_vectors_attitudes[] = {
     ITEMS({BOX, 0, {1, 1, 1}, HERE, UP, "frmobw"}, {PLATE, 0, {2, 1, 0}, {1.625, 0, 0}, UP, "c"},  \
           {PLATE, 0, {2, 1, 0}, {-1.625, 0, 0}, UP, "t"})
 
-/* A scene of two skins 2^-K m apart, a bright one below half of a dark one. */
-#define SKINS(K)                                                                                   \
+/* A scene of two surfaces 2^-K m apart, a bright one below half of a dark one. */
+#define CLOSE_SURFACES(K)                                                                          \
     {                                                                                              \
         "skins-" #K, 5, OBLIQUE, 1.0, HERE,                                                        \
             ITEMS({PLATE, 0, {2, 2, 0}, {0, 0, -1.0 / (double)(UINT64_C(1) << (K))}, UP, "r"},     \
                   {PLATE, 0, {1, 2, 0}, {0.5, 0, 0}, UP, "k"},                                     \
                   {BOX, 0, {0.25, 0.25, 0.25}, {2, 0, 4}, UP, "o"},                                \
                   {BOX, 0, {0.25, 0.25, 0.25}, {-2, 0, -4}, UP, "b"}),                             \
-            "two skins 2^-" #K " m apart in a scene 8 m deep"                                      \
+            "two surfaces 2^-" #K " m apart in a scene 8 m deep"                                   \
     }
 
 const lrcsi_vectors_scene lrcsi_vectors_scenes[] = {
@@ -179,16 +179,16 @@ const lrcsi_vectors_scene lrcsi_vectors_scenes[] = {
      "720 slivers to a disc, below a bar"},
     {"two-faced", 5, TILTS | OBLIQUE, 1.0, HERE,
      ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, {180, 0, 0}, "b"}),
-     "two skins in one plane, back to back: the one that faces the laser is seen, whatever "
+     "two surfaces in one plane, back to back: the one that faces the laser is seen, whatever "
      "rounding says"},
     {"twins", 5, OBLIQUE, 1.0, HERE,
      ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, UP, "k"}),
      "the same plate twice, in two materials: the first one counts"},
-    SKINS(10),
-    SKINS(14),
-    SKINS(18),
-    SKINS(22),
-    SKINS(40),
+    CLOSE_SURFACES(10),
+    CLOSE_SURFACES(14),
+    CLOSE_SURFACES(18),
+    CLOSE_SURFACES(22),
+    CLOSE_SURFACES(40),
     {"cross", 5, OBLIQUE | EDGES, 1.0, HERE,
      ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, {0, 90, 0}, "t"},
            {PLATE, 0, {2, 1, 0}, HERE, {40, 0, 90}, "o"}),

@@ -14,7 +14,7 @@
 #define DIGITS          9     /* with this many digits rounding is harmless */
 #define SAME_DIGIT      1e-11 /* relative: a number so near to one of few digits is taken for it */
 #define Z_FIGHTING_MOST 256u  /* scenes with more facets are not searched for coplanar facets */
-#define SKINS_TOUCH     60    /* a distance of 2^-60 m counts as none */
+#define COINCIDENT      60    /* a distance of 2^-60 m counts as none */
 #define COARSEST        16.0  /* pixels per side of the coarsest raster considered, */
 #define COARSE_SHARE    0.012 /* and the median share of the allowed difference: 0.02 is usual */
 #define BIAS_CASES      20u   /* a factor that all share: at least this many cases */
@@ -203,31 +203,32 @@ static void coarse_try(lrcsi_search *search)
 
 /* ---- depths ---- */
 
-/* Skins 2^-K m apart in a scene 8 m deep are named skins-K, coincident ones have other names; 0 for
-   scenes without skins. */
-static int skins_of(const lrcs_host_judgement *job, const lrcs_host_kit_case *one)
+/* K if two surfaces of the case's scene, which is 8 m deep, are 2^-K m apart (the scenes skins-K),
+   COINCIDENT if they coincide, 0 if it has no such surfaces. */
+static int separation_of(const lrcs_host_judgement *job, const lrcs_host_kit_case *one)
 {
     const char *name = job->kit.scene[one->scene].name;
     int coincident = strcmp(name, "twins") == 0 || strcmp(name, "two-faced") == 0;
-    int skins = strncmp(name, "skins-", 6) == 0 ? (int)strtol(name + 6, NULL, 10) : 0;
-    return coincident || skins > SKINS_TOUCH ? SKINS_TOUCH : skins;
+    int exponent = strncmp(name, "skins-", 6) == 0 ? (int)strtol(name + 6, NULL, 10) : 0;
+    return coincident || exponent > COINCIDENT ? COINCIDENT : exponent;
 }
 
-/* If most of the failing cases are skins close to each other, the depths are too coarse. */
+/* If most of the failing cases have surfaces close to each other, the depths are too coarse. */
 static void depth_try(lrcsi_search *search)
 {
-    int coarsest = SKINS_TOUCH;
+    int coarsest = COINCIDENT;
     for (uint32_t i = 0; i < search->failing_count; i++) {
-        int skins = skins_of(search->job, search->failing[i]);
-        coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
-        search->explains[i] = skins > 0;
+        int exponent = separation_of(search->job, search->failing[i]);
+        coarsest = exponent > 0 && exponent < coarsest ? exponent : coarsest;
+        search->explains[i] = exponent > 0;
     }
-    if (coarsest < SKINS_TOUCH &&
+    if (coarsest < COINCIDENT &&
         2 * lrcsi_search_explained_cases(search, search->explains) > search->failing_count) {
-        lrcsi_search_finding_add(search, search->explains, "depth-precision",
-                                 "depth precision: skins 2^-%d m apart in a scene 8 m deep are not "
-                                 "distinguished: a depth of some %d bits or fewer",
-                                 coarsest, coarsest + 3);
+        lrcsi_search_finding_add(
+            search, search->explains, "depth-precision",
+            "depth precision: surfaces 2^-%d m apart in a scene 8 m deep are not "
+            "distinguished: a depth of some %d bits or fewer",
+            coarsest, coarsest + 3);
     }
 }
 
@@ -238,7 +239,7 @@ static void depth_try(lrcsi_search *search)
 static int case_is_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *one,
                               unsigned char *z_fighting)
 {
-    static const lrcsi_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
+    static const lrcsi_mistake wrong = {.name = "coplanar", .text = "", .wrong_coplanar = 1};
     const lrcs_host_judgement *job = search->job;
     double allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
     double other = 0.0;
@@ -273,7 +274,7 @@ static int z_fighting_try(lrcsi_search *search)
     if (lrcsi_search_explained_cases(search, search->explains) > 0) {
         lrcsi_search_finding_add(
             search, search->explains, "coincident-skins",
-            "coincident skins, decided by rounding or by order (z-fighting): of facets "
+            "coincident surfaces, decided by rounding or by order (z-fighting): of facets "
             "in one plane a front has precedence over a back, then the lower index; push backs "
             "away by some roundings of the scene's size");
     }

@@ -235,12 +235,12 @@ static void sum_add_error(lrcsi_cubature *sum, double bound, double estimate)
 }
 
 /* Adds a cell to the sum, or divides it into `part`. Returns the number of parts.
-   1. A cell on which the rule is not trusted is halved. If it may not be divided, it counts with
-      the value of the rule, and its upper bound is the error.
-   2. A cell on which the estimated error of the rule is accepted counts without a comparison.
-   3. Any other cell is compared with its quarters, the halves of both halves. They count if their
-      values agree with that of the cell, or if it may not be divided; otherwise the quarters are
-      the parts. */
+   1. A cell on which the rule is not trusted is halved. If it may not be divided, the value of the
+      rule is added, with the upper bound as its error.
+   2. A cell on which the estimated error of the rule is accepted is added without a comparison.
+   3. Any other cell is compared with its quarters, the halves of both halves. They are added if
+      their values agree with that of the cell, or if it may not be divided; otherwise the quarters
+      are the parts. */
 static uint32_t cell_step(lrcsi_cubature *sum, double weight_max, lrcsi_cubature_cell *cell,
                           int may_divide, lrcsi_cubature_cell part[4])
 {

@@ -7,7 +7,7 @@
        I - F (P - low) <= integral over V <= F high,  and the integral is in [0, I].
    If only an area is known, the error of any value in that interval is at most its distance from
    the farther end. Clipped pieces differ from V by an area of at most high - low, counting both
-   what they have too much and what they lack, and by the rounding of their corners
+   what they have in excess and what they lack, and by the rounding of their corners
    (visibility/occlude.h): the error is at most F times these areas. If spent steps leave an error
    in I, all of these errors increase by at most that.
 

@@ -6,7 +6,8 @@
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
    Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
    (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
-   pieces of its round wall, as the mean over its patch, or from its normal.
+   pieces of its round wall, as the mean over its patch, or from its normal. The margins of a flat
+   face (lrcsi_flat_face_area) are added to the visible area of one of its facets.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"
@@ -123,7 +124,7 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
         if ((glint || diffuse) && patch &&
             lrcsi_linear_make(view, brdf, patch, bounds, 0, &linear)) {
             lrcsi_linear_moment m = lrcsi_linear_moment_make(
-                view, facet, patch, &run->visible[facet], &run->moment[facet]);
+                view, facet, patch, &run->areas.visible[facet], &run->areas.moment[facet]);
             const double x = m.first[0] / projected;
             const double y = m.first[1] / projected;
             if (glint && brdf->A > 0) {
@@ -161,8 +162,8 @@ static lrcsi_unit_response pieces_response(const lrcs_brdf *own, const lrcsi_rou
 void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_sigma,
                          lrcsi_response *response)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment,
-                               as_sigma ? run->round_terms : NULL, run->face};
+    lrcsi_areas areas = run->areas;
+    areas.round_terms = as_sigma ? areas.round_terms : NULL; /* at the run's parameters only */
     const lrcsi_view *view = &run->view;
     const lrcsi_plan *plan = &run->plan;
     const lrcsi_clear_shapes *clear = &run->clear;
@@ -192,7 +193,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
                                brdf[material].m};
         double whole = LRCS_FOUR_PI * 0.5 * p->normal[f].length;
         double weight = whole * fraction;
-        int corrected = run->moment && run->corrected[f];
+        int corrected = areas.moment && run->corrected[f];
         if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
             const lrcsi_curve_terms *curved = &run->curve_terms[f];
             const lrcsi_unit_response at = {curved->glint, curved->diffuse,

@@ -20,8 +20,8 @@ typedef struct lrcsi_response {
    at amplitudes of 1 and for derivatives; brdf[material_count]: the s and m at which the responses
    are computed, and the A and B that decide for which facets the mean over their patch is used;
    as_sigma: 1 if brdf are the run's materials. Facets are then computed as they are in its sigma,
-   so that A and B times the responses are sigma to rounding. Else pieces of round walls, of which
-   only the integrals at the run's parameters are known, count with means over patches. Returned:
+   so that A and B times the responses are sigma to rounding. Otherwise means over patches replace
+   the integrals over pieces of round walls, which are known at the run's parameters only. Returned:
    response[material_count], summed over facets in their order, then over clear shapes. */
 void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_sigma,
                          lrcsi_response *response);

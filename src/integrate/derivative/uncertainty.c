@@ -6,9 +6,8 @@
    1. The pose, as lrcs_sigma_run (lrcsi_sigma_stages).
    2. The responses of all materials at the nodes of s and m (lrcsi_response_make): over the visible
       areas of that pose or, with curved normals, from a pose for each node (run_node). The visible
-      pieces of round walls are integrated at the materials' own s and m only: at other nodes they
-      count with means over patches, corrected by what these are off at the own node
-      (nodes_correct).
+      pieces of round walls are integrated at the materials' own s and m only: at other nodes means
+      over patches replace them, corrected by their error at the own node (nodes_correct).
    3. The derivatives of sigma, from the node of the materials' own s and m.
    4. Sources: materials with the same source have the same errors, and are combined (sources_make).
    5. First order: with v the four derivatives times the four standard deviations and C the
@@ -343,8 +342,8 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
     out.high_m2 = sigma + out.deviation_m2;
     if (sources > 0 && options->draws > 0) { /* 6 */
         /* What other materials add. With curved normals the cubature at the own node is not that of
-           sigma: if it exceeds sigma, the draws are scaled, so that they are sigma where nothing is
-           off; otherwise only rounding makes `own` exceed sigma. */
+           sigma: if it exceeds sigma, the draws are scaled, so that they are sigma where no
+           parameter has an error; otherwise only rounding makes `own` exceed sigma. */
         double fixed = lrcsi_max(0, sigma - own);
         double scale = own > sigma ? sigma / own : 1;
         uint64_t state = options->seed;
@@ -548,9 +547,10 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = lrcsi_sigma_request_make(prepared, options, work, &request);
     request.derivatives = !prepared->has_curved_normals; /* those take runs of their own */
     size_t start = work->used;
+    /* 1 */
     status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
-    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
+    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) { /* 2 */
         for (uint32_t i = 0; i < materials; i++) {
             const lrcs_material *m = &scene->material[i];
             const node_axis s_axis = axis_of_s(m, nodes);
@@ -575,11 +575,11 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     work->used = status == LRCS_OK ? start : work->used;
     const response_node *own = memory.node + (size_t)(nodes / 2) * materials;
-    for (uint32_t i = 0; i < materials && status == LRCS_OK; i++) {
+    for (uint32_t i = 0; i < materials && status == LRCS_OK; i++) { /* 3 */
         lrcs_sensitivity d = sensitivity_of(&scene->material[i].brdf, &own[i]);
         status = isfinite(d.dA + d.dB + d.ds + d.dm) ? LRCS_OK : LRCS_E_NUMBER;
     }
-    if (status == LRCS_OK) {
+    if (status == LRCS_OK) { /* 4 to 6 */
         status = estimate_make(scene, answer.sigma_m2, memory.node, nodes, how, work, &estimate);
     }
     if (status == LRCS_OK) {

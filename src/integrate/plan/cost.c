@@ -46,7 +46,7 @@
 #define ESTIMATE_SAFETY 4.0
 
 /* Adds the sides of a facet that are event edges, each counted `weight` times. Where back sides
-   cast shadows too, a contour edge is a side of two casting facets, so it counts by half for each.
+   cast shadows too, a contour edge is a side of two casting facets, so it counts half for each.
    Irregular edges count as event edges. */
 static void count_events(const lrcsi_view *view, uint32_t facet, double weight, lrcsi_cost *cost)
 {

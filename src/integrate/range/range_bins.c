@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Divides the projected area of triangles among bins of range, exactly but for rounding: the area
-   per unit of range increases linearly from the nearest corner to the middle one, and decreases
-   linearly from there to the farthest. Bounds the errors (1), (3) and (4) of
+/* Divides the projected area of triangles among bins of range, exactly except for rounding: the
+   area per unit of range increases linearly from the nearest corner to the middle one, and
+   decreases linearly from there to the farthest. Bounds the errors (1), (3) and (4) of
    integrate/range/range_profile.c. */
 #include "integrate/range/range_bins.h"
 

@@ -6,11 +6,13 @@
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
    fraction 1e-9 + 2 u per facet, for their own rounding: 2 u per facet for the sums, and far more
    than the few operations on each term need. The steps of lrcsi_total_make:
-   1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
+   1. negligible_remainder, if facets represent patches: how accurate the means over these must be;
+   2. records_start, if records are asked for: all of them except sigma;
+   3. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
       doubles (total_packet.c), the others one by one (total_facet.c);
-   2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
-   3. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
-   4. total_finish: conversion to square metres, and the rounding of the sums. */
+   4. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
+   5. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
+   6. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/sum/total.h"
 
 #include <math.h>
@@ -181,8 +183,8 @@ static void total_finish(lrcsi_total_run *run)
     total->visibility = lrcsi_prepared_bound(p, sums->visibility * outward);
     double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
     total->tessellation = lrcsi_prepared_bound(p, either * outward);
-    /* Corrections and the terms of round walls may be negative: their own rounding bounds count u
-       of their size at least, more than the sums lose by them. */
+    /* Corrections and the terms of round walls may be negative: each has a rounding bound of at
+       least u times its size, more than the compensated sums lose by it. */
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = lrcsi_prepared_bound(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
@@ -212,34 +214,34 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (areas->moment) {
         memset(details->corrected, 0, p->scene->facet_count);
     }
-    if (plan->patches) {
+    if (plan->patches) { /* 1 */
         run.patches.negligible = negligible_remainder(&run);
         run.total.negligible_remainder = run.patches.negligible;
     }
-    if (details->records) {
+    if (details->records) { /* 2 */
         records_start(&run);
     }
     int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
-    run.tessellation = replaced && lrcsi_tessellation_known(p, plan);
-    for (uint32_t i = 0; i < p->scene->material_count; i++) {
+    run.bounds_tessellation = replaced && lrcsi_tessellation_known(p, plan);
+    for (uint32_t i = 0; i < p->scene->material_count; i++) { /* 3 */
         lrcsi_total_add_material(&run, i);
     }
-    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) {
+    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) { /* 4 */
         if (run.clear->part[i]) {
             add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
-    if (run.tessellation) {
+    if (run.bounds_tessellation) { /* 5 */
         add_tessellation_errors(&run);
     }
-    total_finish(&run);
+    total_finish(&run); /* 6 */
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         if (i >= LRCSI_PART_SET_SINGLE && run.shared_error > 0) {
             part_error[i] += run.shared_error * (p->scene->part[i].bounds.reach / run.shared_reach);
         }
         part_error[i] = lrcsi_prepared_area(p, part_error[i]);
     }
-    if (replaced && !run.tessellation) {
+    if (replaced && !run.bounds_tessellation) {
         run.total.tessellation = -1;
     }
     return run.total;

@@ -341,7 +341,7 @@ static void add_lanes(lrcsi_total_run *run, total_batch *batch, uint32_t start, 
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
             lrcsi_total_add_facet(run, facet[i]);
-            if (run->tessellation && lrcsi_patch_exists(run->view->prepared, facet[i])) {
+            if (run->bounds_tessellation && lrcsi_patch_exists(run->view->prepared, facet[i])) {
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
                 lrcsi_total_add_tessellation(run, facet[i], &incidence);
             }

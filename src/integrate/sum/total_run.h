@@ -55,7 +55,7 @@ typedef struct lrcsi_total_run {
     const lrcsi_masked_band *band;        /* NULL: none was made */
     const lrcsi_clear_shapes *clear;      /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
-    int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
+    int bounds_tessellation; /* 1: facets replace curved shapes, and that error can be bounded */
     lrcsi_patches patches;
     double shared_reach, shared_error; /* of the parts that share a bit of part sets: the sum of
                                           their reaches; the errors that they cause together */

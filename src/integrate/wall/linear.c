@@ -36,13 +36,13 @@
    so have c = |cos theta| and both components of grad F, divided by dF/dc. With u = tan^2, dF/dc is
        glint (2 / (s^2 c^3) - 4 / c) + diffuse (m + 2) / c.
    u has the error du of integrate/wall/patch.c, which changes the terms as there; `error` of
-   lrcsi_reflect is added. An error of grad F counts gamma times, as N's part perpendicular to n is
-   no longer. Rounding of the corners (patch->area_err is twice the angle by which it may turn the
-   facets) moves a point by at most half of area_err times any altitude of the facets: by e_x and
-   e_y at most area_err times `width` and `length`, and along n at most as far; there l changes by
-   |G| tan theta times that, at most |G| / c. All of this, for x and c, is at most 4 area_err
-   variation / c. The products with a centroid, a moment and the rotation to the view are accurate
-   to 128 u |G| / c times the facets' diameter. */
+   lrcsi_reflect is added. An error of grad F is multiplied by gamma, since the part of N
+   perpendicular to n is no longer than that. Rounding of the corners (patch->area_err is twice the
+   angle by which it may turn the facets) moves a point by at most half of area_err times any
+   altitude of the facets: by e_x and e_y at most area_err times `width` and `length`, and along n
+   at most as far; there l changes by |G| tan theta times that, at most |G| / c. All of this, for x
+   and c, is at most 4 area_err variation / c. The products with a centroid, a moment and the
+   rotation to the view are accurate to 128 u |G| / c times the facets' diameter. */
 #include "integrate/wall/linear.h"
 
 #include <math.h>

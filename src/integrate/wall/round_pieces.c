@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Integrates over visible pieces, and over margins at the borders of sets of sectors. Used are the
-   sectors of which a facet is partly visible, if the same side of the surface above their facets
+/* Integrates over visible pieces, and over margins at the borders of sets of sectors. It uses the
+   sectors that have a partly visible facet, if the same side of the surface above their facets
    faces the laser everywhere, and G is smooth enough for the rules there. */
 #include "integrate/wall/round_pieces.h"
 
@@ -150,8 +150,8 @@ static void triangle_divide(const double corner[3][2], int n, int i, double smal
     }
 }
 
-/* Adds the integral over a triangle with a counter-clockwise area, divided if that is necessary for
-   a small remainder. Returns 0 if the remainder is too large, or the surface not known. */
+/* Adds the integral over a counter-clockwise triangle, divided where its remainder would be too
+   large. Returns 0 if the remainder is too large, or the surface not known. */
 static int triangle_integrate(const pieces_job *job, const double corner[3][2], double area,
                               lrcsi_round_sum *sum)
 {
@@ -325,9 +325,9 @@ static int sector_is_candidate(const pieces_job *job, const lrcsi_round_sector *
     return uncertain;
 }
 
-/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. Of a uniform
-   facet that is known. On any other a query at a point decides, so close to the middle of the side
-   that what holds for the side holds for it. */
+/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. For a uniform
+   facet that is known. For any other facet a query decides, at a point so close to the middle of
+   the side that what holds for the side holds for the point. */
 static int side_state(const pieces_job *job, const lrcsi_occlusion *o, const lrcsi_round_side *side)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -393,9 +393,10 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
 }
 
 /* Integrates over the pieces of one side of a wall:
-   1. which sectors: all of whose integrals and margins are known; the integrals over their pieces;
-   2. the rim of an open part above its inside; where it is not known, the inside is left out;
-   3. the margins at the border of the set.
+   1. chooses the sectors whose integrals and margins are all known, and integrates over their
+      pieces;
+   2. adds the rim of an open part above its inside; where it is not known, the inside is left out;
+   3. adds the margins at the border of the set.
    The occlusion is made when it is first needed. Returns 0 if there is no memory for it. */
 static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
                           lrcsi_round_terms *terms)

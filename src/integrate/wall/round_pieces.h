@@ -7,7 +7,7 @@
    facets, U their patches, and f' and U' the projections of these. Let G be what the true surface
    reflects per unit of projected area (integrate/wall/round_surface.h), W 1 where a facet is
    visible and 0 where it is not, and V the same for the true surface, both as functions on the view
-   plane. The truth of C is T = Int_U' G V. Used is M = sum over f of Int_f' G W, and what is
+   plane. The truth of C is T = Int_U' G V. The sum uses M = sum over f of Int_f' G W, and what is
    between U' and f' along the border of C.
    1. Within the facets of C, V and W differ only on the fractions gain_aligned and loss_aligned of
       visibility/proximity/event_band.c, 5; and on the inside between the projected openings of the
@@ -19,7 +19,7 @@
       of the integrals over the margins, with the sign of their areas (Stokes' theorem for the
       homotopy of both borders). Sides inside C cancel.
    3. Beside a side that is free there, W = V, all 1 or all 0: there the integral of G over the
-      margin is added, or nothing. Any other margin is an error, either way. []
+      margin is added, or nothing. Any other margin is an error, in either direction. []
 
    The integrals of G over visible pieces use rules of positive weights that are exact up to degree
    n: twice the largest difference between G and its Taylor polynomial bounds their error. */

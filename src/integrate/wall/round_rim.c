@@ -15,7 +15,7 @@
 /* More than the rounding error of angles. */
 #define ANGLE_ERR 1e-9
 
-/* A side of the rim, and what is under it of the inside. */
+/* A side of the rim, and the facets of the inside under it. */
 typedef struct rim_side {
     lrcsi_round_side at;
     uint32_t facet; /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is
@@ -97,7 +97,9 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
                                        facet - job->part->first_facet, &at) &&
                 at.row == 0 && lrcsi_round_sector_make(job->wall, facet, sector) &&
                 sector->facet[0] == facet;
-    *number = at.sector;
+    if (found) {
+        *number = at.sector;
+    }
     return found;
 }
 

@@ -119,7 +119,7 @@ typedef struct margin_piece {
     lrcsi_round_point centre;
 } margin_piece;
 
-/* All of it but the centre. */
+/* Makes a piece, except for its centre. */
 static margin_piece margin_piece_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                                       double middle, double half)
 {

@@ -78,12 +78,12 @@ typedef struct lrcsi_round_margin {
 void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                                lrcsi_round_margin *margin);
 
-/* All of it but the integral itself. Returns 0 if only width and area are known, or if the tangent
-   of the true surface's inclination to the view plane may exceed 8 above it. */
+/* Makes a margin, except for the integral itself. Returns 0 if only width and area are known, or if
+   the tangent of the true surface's inclination to the view plane may exceed 8 above it. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_margin *margin);
 
-/* All of it. Returns 0 if the bounds are not known; or else if the integral is not, because of
+/* Makes a margin. Returns 0 if its bounds are not known, or if only its integral is not, because of
    rounding: the bounds hold then. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin);

@@ -36,8 +36,8 @@
    takes rows to rows and stretches area evenly (mesh/shape/revolution.c), also after an affine map;
    F, and the additional stretch of an affine map, depend on azimuth alone. So over any set of whole
    rows, a fraction q of the sector, the integral of F - F_i is q times its integral over the
-   sector, and every bound on the deviation of the whole patch, or of a region, holds q times. Rows
-   that meet no proximity band are visible over their whole length or nowhere
+   sector, and every bound on the deviation of the whole patch, or of a region, is multiplied by q.
+   Rows that meet no proximity band are visible over their whole length or nowhere
    (visibility/proximity/proximity_band.c, 5): these are a fraction q <= 1. The other rows are a
    fraction m of the area, at most twice their fraction of the height, since no row of a trapezoid
    is longer than twice the mean. Together, for a sector of which no facet is hidden or faces away:
@@ -67,8 +67,8 @@
    where the last difference is the area of the margins, up to its error, and for each facet at most
    S g above and S l below, g and l of aligned points. The area of the margins is summed with F_i of
    one facet. The first term, and the change of areas by rounding, are at most (1 + a) S sup |F -
-   F_i| and S a (1 + a) sup F. A facet without bands (mismatch 0) is the same as by the map, since v
-   and w are constant on it and around it.
+   F_i| and S a (1 + a) sup F. For a facet without bands (mismatch 0) the comparison by the map
+   gives the same, since v and w are constant on it and around it.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
@@ -128,9 +128,9 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
            lrcsi_deviation_make(brdf, cosine, incidence->tan2, bounds).value_max;
 }
 
-/* The error of a facet on a flat face whose margins are used, per unit of area. The margins count
-   to one facet of the face. What may be visible beyond a side of the face is not hidden of the
-   facet, so that what is hidden of a facet there does not limit its gain. */
+/* The error of a facet on a flat face whose margins are used, per unit of area. The margins belong
+   to one facet of the face. At a side of the face, area may be gained beyond the facet; there its
+   hidden fraction does not limit the gain. */
 static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_t facet,
                                      const lrcsi_incidence *incidence,
                                      const lrcs_patch_bounds *bounds, lrcsi_patches *patches)
@@ -167,7 +167,7 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 
 /* 1. What the patch reflects from its other side, and what rounding shows of a closed part's
    inside;
-   2. facets with bands, and that to which margins count, on a flat face whose margins are used;
+   2. on a flat face whose margins are used: facets with bands, and the one that has the margins;
    3. facets and patches that are entirely hidden, or flat and certain: nothing more;
    4. patches that are entirely visible and have a mean: its remainder;
    5. the deviation of F over the patch, and the fractions of the facet that are gained and lost;
@@ -227,7 +227,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
         at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band);
     }
-    lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 5 */
+    lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 6 */
                                at.fractions.loss * at.deviation.of_f.value_max, 0, 0, 0};
     if (is_curved) {
         at.fractions.gain += seen;

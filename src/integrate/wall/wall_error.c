@@ -29,8 +29,8 @@ double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_p
        |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).
    At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i.
    Where a scale that differs between axes stretches areas unevenly, the stretch over E and its mean
-   over the patch are both within a factor of 1 + stretch_err of that of the facet: T - M has also
-   F^ times their difference, at most ((1 + stretch_err)^2 - 1) F_i per unit of E. */
+   over the patch are both within a factor of 1 + stretch_err of that of the facet: T - M also
+   contains F^ times their difference, at most ((1 + stretch_err)^2 - 1) F_i per unit of E. */
 static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
                                  lrcsi_patch_deviation *deviation)
 {
@@ -92,8 +92,8 @@ typedef struct sector_bound {
     double error; /* the larger error of both facets, per unit of area */
 } sector_bound;
 
-/* The error per unit of area, but for gain and loss: by the deviation over any region; by that at
-   any point, times the visible fraction. */
+/* The error per unit of area, except for gain and loss: by the deviation over any region; by that
+   at any point, times the visible fraction. */
 static double bound_by_region(const lrcsi_deviation *deviation, double stretch)
 {
     return deviation->region + stretch * deviation->value;
@@ -196,7 +196,7 @@ typedef struct patch_correction {
 } patch_correction;
 
 /* The integral of l - F_i over what is visible of a facet, in the view plane, divided by its
-   projected area. An error of the moment counts with the slope; rounding is part of
+   projected area. An error of the moment is multiplied by the slope; rounding is part of
    linear->rounding, except for the projected area. Returns 0 if the moment is not known. */
 static int correction_make(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
                            uint32_t facet, const lrcsi_linear *linear, patch_correction *correction)

@@ -177,7 +177,7 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
 }
 
 /* A part of a segment is short if it is less than this fraction of it: a heuristic that saves time.
-   What is tested of a short part (below) would hold of any, but a longer one that is near a side
+   The test of a short part (below) is valid for any part, but a longer one that is near a side
    along all its length is rare. */
 #define SHORT_PART 0x1p-20
 

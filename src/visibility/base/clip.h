@@ -30,9 +30,9 @@ int lrcsi_clip_longest_side(const double corner[3][2], double *square);
 double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double about[2],
                              double first[2]);
 
-/* The area of one triangle of the fan of a convex polygon about its corner c: that of c p q. To
-   *error is added a bound on the error of what is added where only positive areas count, rounding
-   included. */
+/* The area of one triangle of the fan of a convex polygon about its corner c: that of c p q. *error
+   is increased by a bound on its error in a sum to which negative areas should add nothing,
+   rounding included. */
 static inline double lrcsi_clip_fan_area(const double c[2], const double p[2], const double q[2],
                                          double *error)
 {

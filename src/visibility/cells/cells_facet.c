@@ -15,9 +15,10 @@
    coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper
    bound of the true one. Then z at that point has an error of e + G (w + 8 u l^2 / H), where e is
    the error of z of the vertices and l the longest side; the last term is due to the error of the
-   slope itself. Also, z is always between the smallest and the largest z of the corners. Only that
-   is used of a facet with an H below 64 times the position error of its vertices, or below 2^-40 l:
-   G bounds the true slope wherever H exceeds that error by far, and any such limit is right. */
+   slope itself. Also, z is always between the smallest and the largest z of the corners. Nothing
+   else is used for a facet with an H below 64 times the position error of its vertices, or below
+   2^-40 l: G bounds the true slope wherever H exceeds that error by far, and any such limit is
+   right. */
 #include "visibility/cells/cells_facet.h"
 
 #include <math.h>
@@ -30,9 +31,9 @@
 #include "visibility/index/event.h"
 #include "visibility/index/grid.h"
 
-/* The axes of the view, perpendicular to the direction within 32 u^2. The rows of R are so within 4
-   u; their components along the direction are subtracted in the lower parts. The axes may deviate
-   by 4 u from a right angle to each other. */
+/* The axes of the view, perpendicular to the direction within 32 u^2. The rows of R are
+   perpendicular to it within 4 u; their components along the direction are subtracted in the lower
+   parts. The axes may deviate by 4 u from a right angle to each other. */
 void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
 {
     const double *d = c->view->direction;

@@ -95,9 +95,9 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
-/* To the errors of the sides are added the rounding errors of what is computed from them (points at
-   t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate between the
-   side's and the window's; and the rounding of boxes by 2^-24 of the latter. */
+/* The errors of the sides are increased by the rounding errors of what is computed from them
+   (points at t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate
+   between the side's and the window's; and by the rounding of boxes, 2^-24 of the latter. */
 void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near)
 {
     const lrcsi_grid *grid = walk->grid;
@@ -147,7 +147,7 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
     return listed;
 }
 
-/* In one bucket each edge is listed once: that is not too often. */
+/* A grid of one bucket lists each edge once, which is never too often. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
                      lrcsi_grid *grid)
 {
@@ -169,7 +169,7 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* In one bucket each facet is listed once, so that this ends. */
+/* A grid of one bucket lists each facet once, so the loop ends. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;

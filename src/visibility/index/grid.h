@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A uniform grid over the window of the scene's bulk, whose buckets list the items (facets or
-   edges) that may lie in them. What lies outside the window counts to the buckets on the border.
+   edges) that may lie in them. What lies outside the window belongs to the buckets on the border.
    Conservative: an item is listed in every bucket that its box meets. If large items make the lists
    too long, buckets are doubled until they are short enough: this bounds the memory of a grid for
    any scene, and the cost of walking through the buckets of all items. */

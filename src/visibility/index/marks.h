@@ -14,7 +14,7 @@ static inline uint32_t lrcsi_marks_next(const unsigned char *mark, uint32_t face
     return at ? (uint32_t)(at - mark) : count;
 }
 
-/* Marks of which no entry is touched to unmark all facets, but once in 2^31 times: a facet is
+/* Marks that are all cleared without touching their entries, except once in 2^31 times: a facet is
    marked if its entry is the current number. Entries and number are 0 at first. */
 typedef struct lrcsi_marks {
     uint32_t *entry; /* facet */

@@ -22,7 +22,8 @@ typedef struct lrcsi_depth_order {
                                  only if the point's projection lies in that of the part in front */
 } lrcsi_depth_order;
 
-/* Given: two parts, the unit vector d to the laser. Tried are planes across the axes of both. */
+/* Given: two parts, the unit vector d to the laser. It tries planes perpendicular to the axes of
+   both. */
 lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_body *back,
                                          const double d[3]);
 

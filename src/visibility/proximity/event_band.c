@@ -78,14 +78,14 @@
    visible, and w = 1 where one of U is, on facets, the true shapes leave visible, in projection,
        Int_V v - Int_U w = Int_(U and V) (v - w) + Int_(V without U) v - Int_(U without V) w
    more. In the first integral points are aligned, and in the same place to within rounding: so 5
-   holds without a condition on the order of parts, except that (1) counts within the slack of P and
-   Q, as the pairs of scene/proximity.c have it, for facets of Q that are not in front or behind. It
-   is at most the sum of the fractions of aligned points; along an event edge it may instead be
-   known together for the whole face, because each point counts to the nearest event edge of Q only
+   holds without a condition on the order of parts, except that (1) remains, within the slack of P
+   and Q (the pairs of scene/proximity.c), for facets of Q that are not in front or behind. It is at
+   most the sum of the fractions of aligned points; along an event edge it may instead be known
+   together for the whole face, because each point is attributed to the nearest event edge of Q only
    (4): between the loss and the gain of outline.c or, where nothing else is near, with its sign.
    The other two integrals are over regions along the sides of U, no wider than e_P, where V exceeds
-   the side or falls short of it. For each side the areas of both are equal, by symmetry. If
-   the side is free and no facet of a pair adjoins it, then v = w is constant there, and the two
+   the side or falls short of it. For each side the areas of both are equal, by symmetry. If the
+   side is free and no facet of a pair adjoins it, then v = w is constant there, and the two
    integrals cancel: for a Q that is open and neither in front nor behind this is not proved, and
    faces in scenes with such a Q are not used. Along any other side they differ by at most the area
    of either region, below twice the side's length times e_P. */
@@ -392,7 +392,7 @@ size_t lrcsi_event_bands_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
 }
 
-/* Made are: 1. the boxes of parts; 2. their outlines and convex bodies; 3. their event edges, in a
+/* It makes 1. the boxes of parts; 2. their outlines and convex bodies; 3. their event edges, in a
    grid; 4. the areas between outlines along them. */
 int lrcsi_event_bands_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                            lrcsi_event_bands *bands)

@@ -44,8 +44,9 @@ static uint32_t mark_candidates(const lrcsi_masked_band *band, const lrcsi_visib
 }
 
 /* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
-   part is not asked: it hides no front, and the bands at its rims decide about its inside. The
-   first facet of a group, which names it, is asked before the others are reached. */
+   part is left out of the query: it hides no front, and the bands at its rims decide about its
+   inside. The query is made at the first facet of a group, which names it and is reached before the
+   others. */
 static void find_hidden_groups(lrcsi_masked_band *band, const unsigned char *candidate,
                                const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {

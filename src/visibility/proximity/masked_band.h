@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A proximity band, less the facets of which it is known that other parts hide them entirely, in
-   truth too: their visibility cannot differ, so that they have no fractions. The band itself is not
-   changed. */
+/* A proximity band without the facets that other parts are known to hide entirely, in truth too:
+   their visibility cannot differ, so they have no fractions. The band itself is not changed. */
 #ifndef LRCSI_MASKED_BAND_H
 #define LRCSI_MASKED_BAND_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides of a facet and another part whether their depth order is known, from planes between the
-   two parts and from the plane of the facet; the proofs are kept for pairs of parts. What follows
-   for the visibility of the true shapes is not decided here.
+/* Decides whether the depth order of a facet and another part is known, from planes between the two
+   parts and from the plane of the facet; the proofs are kept for pairs of parts. What follows for
+   the visibility of the true shapes is not decided here.
 
    In the terms of visibility/proximity/proximity_band.c, P is the facet's part and Q the other.
 
@@ -23,8 +23,8 @@
 /* A proof about a part (visibility/proximity/depth_order.h) is used for a facet only if it holds
    for all but this fraction of it. */
 #define PROOF_FRACTION_MAX 0x1p-20
-/* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
-   part by part, so that few pairs are needed at a time. */
+/* The number of pairs of parts whose proofs are kept. Facets are searched part by part, so few
+   pairs are needed at a time. */
 #define DEPTH_PAIRS 64u
 
 /* What a plane between two parts proves; it is kept. */

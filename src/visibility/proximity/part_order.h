@@ -28,8 +28,8 @@ typedef struct lrcsi_part_orders {
 size_t lrcsi_part_orders_need(const lrcs_prepared *prepared);
 int lrcsi_part_orders_make(const lrcsi_view *view, lrcs_work *work, lrcsi_part_orders *orders);
 
-/* Is a part behind the facet's own part, except for the fraction *unproved of the facet? Then it
-   hides nothing else of it. */
+/* Is a part behind the facet's own part? Then the part hides nothing of the facet, except perhaps
+   of the fraction *unproved of it. */
 int lrcsi_part_is_behind(lrcsi_part_orders *orders, uint32_t facet, uint32_t part,
                          double *unproved);
 

@@ -318,11 +318,11 @@ static void add_pairs(band_job *job)
     for (size_t i = 0; i < p->proximity.count; i++) {
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
-        int shut = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
+        int closed = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
         uint32_t other = p->scene->facet_part[pair->other];
         double err;
         double unproved;
-        if (facing == 0 || (facing < 0 && shut)) {
+        if (facing == 0 || (facing < 0 && closed)) {
             continue;
         }
         if (lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved) ||
@@ -357,7 +357,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
    4. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
-      who uses them compares the areas that they stand for with the facet's. */
+      their users compare the areas that they stand for with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;

@@ -3,8 +3,9 @@
    shapes may differ from that of their facets.
 
    proximity_band.c defines the terms and proves what a band contains; event_band.c proves what
-   event edges change, which of it are gain and loss, and what follows where points are aligned;
-   part_order.c, what need not be considered where the depth order of parts is known. */
+   event edges change, which changes are gains and which are losses, and what follows where points
+   are aligned; part_order.c proves what need not be considered where the depth order of parts is
+   known. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
@@ -33,10 +34,10 @@ typedef struct lrcsi_proximity_band {
 /* Upper bound of bytes; 0 if prepared->proximity.reach is NULL. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
-/* For a scene with prepared->proximity.reach. The band is not changed afterwards; what of it is
-   known to be hidden is masked in visibility/proximity/masked_band.h. Facets that neither
-   reflect nor belong to a curved part are left out: mismatch 0. Status: LRCS_OK; LRCS_E_MEMORY;
-   LRCS_E_LIMIT. The fractions stay in the work area; scratch memory is released. */
+/* For a scene with prepared->proximity.reach. The band is not changed afterwards;
+   visibility/proximity/masked_band.h masks the facets that are known to be hidden. Facets that
+   neither reflect nor belong to a curved part are left out: mismatch 0. Status: LRCS_OK;
+   LRCS_E_MEMORY; LRCS_E_LIMIT. The fractions stay in the work area; scratch memory is released. */
 int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 

@@ -165,10 +165,11 @@ static float fraction_by_depth(const preview_job *job, uint32_t facet)
     return middle[2] > height - r->pixel;
 }
 
-/* The visible fractions of all facets. 1. Of facets with samples from these. 2. Of others, the mean
-   over the adjacent facets whose fractions are known: in rounds, each from what earlier rounds
-   found, so that the result does not depend on the order of facets. 3. In the last round, of those
-   that remain, from the depth of the centroid. */
+/* The visible fractions of all facets:
+   1. for facets with samples, from these;
+   2. for others, the mean over the adjacent facets whose fractions are known: in rounds, each from
+      what earlier rounds found, so that the result does not depend on the order of facets;
+   3. in the last round, for those that remain, from the depth of the centroid. */
 static void find_fractions(preview_job *job)
 {
     const lrcs_prepared *p = job->view->prepared;

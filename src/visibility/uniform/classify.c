@@ -298,7 +298,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     status = status == LRCS_OK ? events_sort(&c, work) : status;
     if (status == LRCS_OK) {
         lrcsi_events_join(view, c.cast, c.component);
-        memcpy(c.joinable, c.cast, room + 1); /* until it is known of a facet that it is not */
+        memcpy(c.joinable, c.cast, room + 1); /* until a facet is known not to be */
         status = facets_decide(&c, meter, work);
     }
     if (status != LRCS_OK) {
