@@ -13,7 +13,7 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_event_bands bands;
 static lrcsi_face_margin face[256];
-static uint32_t margin_part[1u << 16];
+static lrcsi_edge_faces faces[1u << 16];
 
 enum { FACE, CASTER };
 
@@ -53,7 +53,7 @@ static void find_margins(lrcs_recipe_part *part, uint32_t count, double toleranc
     const size_t need = lrcsi_face_margins_need(prepared);
     assert_true(need <= sizeof memory);
     lrcs_work room = lrcs_work_make(memory, need);
-    lrcsi_face_margins_make(&bands, &classification, &room, face, margin_part);
+    lrcsi_face_margins_make(&bands, &classification, &room, face, faces);
     assert_int_equal(room.used, 0);
 }
 
@@ -63,7 +63,7 @@ static double error_without_signs(uint32_t part)
 {
     double sum = 0;
     for (uint32_t i = 0; i < bands.events.count; i++) {
-        if (bands.events.part[i] == part && margin_part[i] == FACE) {
+        if (bands.events.part[i] == part && lrcsi_edge_faces_hold(&faces[i], FACE)) {
             sum += 0.5 * (bands.areas[i].gain + bands.areas[i].loss);
         }
     }
@@ -74,7 +74,7 @@ static uint32_t edges_on_face(uint32_t part)
 {
     uint32_t edges = 0;
     for (uint32_t i = 0; i < bands.events.count; i++) {
-        edges += bands.events.part[i] == part && margin_part[i] == FACE;
+        edges += bands.events.part[i] == part && lrcsi_edge_faces_hold(&faces[i], FACE);
     }
     return edges;
 }
@@ -203,7 +203,8 @@ static void not_beside_a_corner_of_the_outline(void **state)
         double corners = 0; /* the errors of edges at corners, without signs */
         uint32_t count = 0;
         for (uint32_t i = 0; i < bands.events.count; i++) {
-            if (bands.events.part[i] == CASTER && margin_part[i] == FACE && is_at_corner(i)) {
+            if (bands.events.part[i] == CASTER && lrcsi_edge_faces_hold(&faces[i], FACE) &&
+                is_at_corner(i)) {
                 corners += 0.5 * (bands.areas[i].gain + bands.areas[i].loss);
                 count++;
             }
@@ -226,14 +227,39 @@ static void not_beside_a_facet_in_the_plane(void **state)
     check_without_signs(part, 3, oblique);
 }
 
-/* (f): a plate in front of the ball hides all of the face. */
-static void not_on_a_hidden_face(void **state)
+/* (f): a plate in front of the ball hides all of the face, so that the ball changes nothing. */
+static void nothing_changes_on_a_hidden_face(void **state)
 {
     (void)state;
     const lrcs_shape plate = {.kind = LRCS_SHAPE_BOX, .size = {4, 4, 0.1}};
     lrcs_recipe_part part[3] = {part_at(disc, 0, 0, 0), part_at(ball_of(0.3), 0, 0, 0.4),
                                 part_at(plate, 0, 0, 2)};
-    check_without_signs(part, 3, oblique);
+    find_margins(part, 3, 1e-3, oblique, NULL);
+    assert_true(face[FACE].known && edges_on_face(CASTER) > 20);
+    check_abs(face[FACE].area, 0, 0);
+    check_abs(face[FACE].error, 0, 0);
+}
+
+/* Of two discs under the ball, the upper one hides the lower one where the margins are. */
+static void margins_on_faces_one_behind_the_other(void **state)
+{
+    (void)state;
+    lrcs_shape upper = disc;
+    upper.radius = 0.8;
+    lrcs_recipe_part part[3] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
+                                part_at(upper, 0, 0, 0)};
+    find_margins(part, 3, 1e-3, (const double[3]){0.2, 0.1, 1}, NULL);
+    const uint32_t edges = edges_on_face(CASTER);
+    uint32_t both = 0;
+    for (uint32_t i = 0; i < bands.events.count; i++) {
+        both += bands.events.part[i] == CASTER && lrcsi_edge_faces_hold(&faces[i], FACE) &&
+                lrcsi_edge_faces_hold(&faces[i], 2);
+    }
+    assert_true(edges > 20 && both == edges);
+    check_abs(face[2].area, polygon_beyond_circle(0.3), face[2].error);
+    check_most(face[2].error, 0.1 * error_without_signs(CASTER));
+    assert_true(face[FACE].known);
+    check_most(face[FACE].error, 1e-12);
 }
 
 /* Discs with a ball above each, far apart: four times as many take four times the steps. With fewer
@@ -282,7 +308,8 @@ int main(void)
         cmocka_unit_test(not_beside_an_edge_of_another_part),
         cmocka_unit_test(not_beside_a_corner_of_the_outline),
         cmocka_unit_test(not_beside_a_facet_in_the_plane),
-        cmocka_unit_test(not_on_a_hidden_face),
+        cmocka_unit_test(nothing_changes_on_a_hidden_face),
+        cmocka_unit_test(margins_on_faces_one_behind_the_other),
         cmocka_unit_test(steps_grow_like_the_number_of_faces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

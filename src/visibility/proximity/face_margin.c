@@ -21,19 +21,24 @@
        are longer than w, and lead away from the edge: they turn by A and B, less than 0.5 rad;
    (e) within the slack of the plane, no facet of a part that is not in front of it as in (b) is in
        N in projection;
-   (f) at one point of N beyond the edge, seen from the facets of Q, the face is visible.
-   Then the points of N beyond the edge are visible, and those on its other side hidden by Q alone,
-   as far as the facets decide it: by (c) and (e) no other part begins or ceases to hide anything
-   there, and by (d) the facets of Q do so only at the edge and, beyond the perpendiculars at its
-   ends, at those two. In truth no other part hides anything either, and Q hides the points of K.
+   (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the face is
+       visible there.
+   If that point is visible, so are all points of N beyond the edge, and those on its other side are
+   hidden by Q alone, as far as the facets decide it: by (c) and (e) no other part begins or ceases
+   to hide anything there, and by (d) the facets of Q do so only at the edge and, beyond the
+   perpendiculars at its ends, at those two. In truth no other part hides anything either, and Q
+   hides the points of K. If the point is hidden, it is hidden by a part other than Q, whose outline
+   ends at the edge, and P, which is convex. By (c) and (e) that part hides all of N, in truth and
+   for the facets: the difference is 0.
 
-   So over the edge, 0 <= t <= L in the coordinates of outline.c, 2, K' begins at depth 0, and K at
-   a depth d(t) of at most w: K lies within k of K', and points of K' farther than k from its
-   boundary lie in K, since otherwise a straight line separates such a point from K, and a point of
-   K' is farther than k from that line. Above d(t) all points up to depth k lie in K: N contains the
-   point of K' at depth w above such a point, K a point within k of that, at depth 3 k or more; the
-   line from there through a point y of depth at most k leads to the polygon of outline.c within 2 k
-   of y along the edge. So the true shapes leave visible the integral of d(t) more.
+   If the point is visible, K' begins at depth 0 over the edge, 0 <= t <= L in the coordinates of
+   outline.c, 2, and K at a depth d(t) of at most w: K lies within k of K', and points of K' farther
+   than k from its boundary lie in K, since otherwise a straight line separates such a point from K,
+   and a point of K' is farther than k from that line. Above d(t) all points up to depth k lie in K:
+   N contains the point of K' at depth w above such a point, K a point within k of that, at depth 3
+   k or more; the line from there through a point y of depth at most k leads to the polygon of
+   outline.c within 2 k of y along the edge. So the true shapes leave visible the integral of d(t)
+   more.
 
    Each point at which K and K' differ is attributed to the event edge of Q nearest to it. Near the
    end a that is not decided by the perpendicular but, inside K', by the bisector of the two edges,
@@ -376,8 +381,9 @@ static void facets_make(face_job *job)
                                                    job->work, &job->facets) == LRCS_OK;
 }
 
-/* (f): the point half of w beyond the middle of the edge. */
-static int margin_is_visible(face_job *job, const edge_margin *m)
+/* (f): an answer of visibility/uniform/query.h for the point half of w beyond the middle of the
+   edge. */
+static int margin_visibility(face_job *job, const edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_part *part = &view->prepared->scene->part[job->face.part];
@@ -388,7 +394,7 @@ static int margin_is_visible(face_job *job, const edge_margin *m)
         facets_make(job);
     }
     if (!job->facets_made) {
-        return 0;
+        return LRCSI_QUERY_UNDECIDED;
     }
     for (int i = 0; i < 2; i++) {
         x[i] = 0.5 * (m->a[i] + m->b[i]) + 0.5 * m->width * m->outward[i];
@@ -403,19 +409,19 @@ static int margin_is_visible(face_job *job, const edge_margin *m)
         if (lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x)) {
             int answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             if (answer != LRCSI_QUERY_UNDECIDED) {
-                return answer == LRCSI_QUERY_VISIBLE;
+                return answer;
             }
         }
     }
-    return 0;
+    return LRCSI_QUERY_UNDECIDED;
 }
 
 /* --- all faces -------------------------------------------------------------------------------- */
 
 /* What the true shapes leave visible of the face along an edge, less what their facets leave:
    returns the area, and a bound on its error. If the margin is on the face alone, this is the
-   signed area between the outlines; otherwise it lies between the loss and the gain of outline.c.
-   The error is infinite if nothing is known. */
+   signed area between the outlines, or 0 if the face is hidden there; otherwise it lies between the
+   loss and the gain of outline.c. The error is infinite if nothing is known. */
 static double edge_area(face_job *job, const edge_margin *m, double *error)
 {
     lrcsi_event_bands *bands = job->bands;
@@ -423,8 +429,16 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     double turn[2];
     *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->contact;
     double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
+    int visibility = LRCSI_QUERY_UNDECIDED;
     if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
-        margin_is_isolated(job, m, turn) && margin_is_visible(job, m)) {
+        margin_is_isolated(job, m, turn)) {
+        visibility = margin_visibility(job, m);
+    }
+    if (visibility == LRCSI_QUERY_HIDDEN) {
+        *error = 0;
+        return 0;
+    }
+    if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
             lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event]);
         const double k = m->outline->k + m->err;
@@ -438,9 +452,23 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     return area;
 }
 
-/* Adds the areas along all event edges over the face. An edge may be listed in several buckets;
-   once its area is added it is left out. */
-static void face_add(face_job *job, lrcsi_face_margin *face, uint32_t *margin_part)
+/* Notes that a face includes the margin of an event edge, if it does not yet, and not too many do.
+   */
+static int edge_faces_add(lrcsi_edge_faces *faces, uint32_t part)
+{
+    int i = 0;
+    while (i < LRCSI_EDGE_FACES && faces->part[i] != LRCS_NONE && faces->part[i] != part) {
+        i++;
+    }
+    if (i == LRCSI_EDGE_FACES || faces->part[i] == part) {
+        return 0;
+    }
+    faces->part[i] = part;
+    return 1;
+}
+
+/* Adds the areas along all event edges over the face. An edge may be listed in several buckets. */
+static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *faces)
 {
     const lrcsi_event_bands *bands = job->bands;
     const lrcsi_grid *grid = &bands->events.grid;
@@ -463,12 +491,12 @@ static void face_add(face_job *job, lrcsi_face_margin *face, uint32_t *margin_pa
             const uint32_t event = grid->item[i];
             edge_margin m;
             double error;
-            if (margin_part[event] != LRCS_NONE || !edge_margin_make(job, event, &m)) {
+            if (lrcsi_edge_faces_hold(&faces[event], job->face.part) ||
+                !edge_margin_make(job, event, &m)) {
                 continue;
             }
             const double area = edge_area(job, &m, &error);
-            if (isfinite(area + error)) {
-                margin_part[event] = job->face.part;
+            if (isfinite(area + error) && edge_faces_add(&faces[event], job->face.part)) {
                 face->known = 1;
                 face->causes |= lrcsi_part_set_of(bands->events.part[event]);
                 face->area += area;
@@ -486,20 +514,20 @@ size_t lrcsi_face_margins_need(const lrcs_prepared *p)
 }
 
 void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
-                             lrcs_work *work, lrcsi_face_margin *face, uint32_t *margin_part)
+                             lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces)
 {
     const lrcs_scene *scene = bands->view->prepared->scene;
     const size_t mark = work->used;
     face_job job = {.bands = bands, .classification = classification, .work = work};
     job.part = lrcsi_work_take(work, scene->part_count, sizeof *job.part);
     for (uint32_t i = 0; i < bands->events.count; i++) {
-        margin_part[i] = LRCS_NONE;
+        faces[i] = (lrcsi_edge_faces){{LRCS_NONE, LRCS_NONE}};
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {
         face[i] = (lrcsi_face_margin){.known = 0};
         job.parts_known = 0;
         if (job.part && lrcsi_face_frame_make(bands, i, &job.face)) {
-            face_add(&job, &face[i], margin_part);
+            face_add(&job, &face[i], faces);
         }
     }
     work->used = mark;

@@ -97,7 +97,7 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
-    uint32_t *margin_part;      /* event: the part whose face includes its margin, or LRCS_NONE */
+    lrcsi_edge_faces *faces;    /* event: the parts whose faces include its margin */
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
     lrcsi_marks considered;     /* events: those that the search for the facet has met */
     uint32_t *listed;           /* events: those near the facet */
@@ -191,14 +191,14 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     const int on_face = lrcsi_face_margin_applies(job->view, facet);
+    const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
         if (band->free_sides[facet] != 0) {
             band->free_sides[facet] &=
                 (unsigned char)~lrcsi_event_sides(&job->bands, at, job->listed[i]);
         }
-        if (on_face &&
-            job->margin_part[job->listed[i]] == job->view->prepared->scene->facet_part[facet]) {
+        if (on_face && lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own)) {
             continue; /* its area is that of a margin */
         }
         if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
@@ -348,8 +348,9 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     need = lrcsi_work_add(need, lrcsi_face_margins_need(p));
-    return lrcsi_work_add(need,
-                          lrcsi_work_blocks(3, lrcsi_proximity_events_most(p), sizeof(uint32_t)));
+    const size_t events = lrcsi_proximity_events_most(p);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(events, sizeof(lrcsi_edge_faces)));
+    return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
 }
 
 /* Computes all fractions:
@@ -369,11 +370,11 @@ static int all_fractions(band_job *job, lrcs_work *work)
     job->considered.entry =
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
     job->listed = lrcsi_work_take(work, job->bands.events.count, sizeof *job->listed);
-    job->margin_part = lrcsi_work_take(work, job->bands.events.count, sizeof *job->margin_part);
-    if (!job->considered.entry || !job->listed || !job->margin_part) {
+    job->faces = lrcsi_work_take(work, job->bands.events.count, sizeof *job->faces);
+    if (!job->considered.entry || !job->listed || !job->faces) {
         return LRCS_E_MEMORY;
     }
-    lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->margin_part);
+    lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->faces);
     job->curved = lrcsi_box_empty();
     for (uint32_t i = 0; i < p->scene->part_count; i++) {
         const lrcsi_box *box = &job->bands.box[i];
