@@ -22,10 +22,6 @@
 #include "base/work.h"
 #include "view/separation.h"
 
-/* A shorter difference or cross product is due to rounding, and has no meaningful direction. Any
-   value is right: planes across any direction may be tried. */
-#define NORMAL_MIN 0x1p-30
-
 /* Does a plane across n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
    nevertheless be hidden. has_slab: the area of slabs of P across n is known. */
 static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],
@@ -41,7 +37,7 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
 static int is_separated_along(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],
                               const double n[3], int has_slab, double *slab)
 {
-    if (!(lrcsi_length(n) > NORMAL_MIN)) {
+    if (!(lrcsi_length(n) > LRCSI_GAP_NORMAL_MIN)) {
         return 0;
     }
     double up[3] = {n[0], n[1], n[2]};

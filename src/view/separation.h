@@ -52,6 +52,10 @@ typedef struct lrcsi_gap {
     double height;
 } lrcsi_gap;
 
+/* A difference or cross product that is shorter than this is due to rounding, and has no meaningful
+   direction. Any value is right: planes across any direction may be tried. */
+#define LRCSI_GAP_NORMAL_MIN 0x1p-30
+
 /* Given: the direction d to the laser and n, unit vectors to 8 u, n . d >= -8 u; facets: 1 if the
    plane is to separate the facets as well, otherwise only the true shapes. */
 lrcsi_gap lrcsi_gap_make(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],

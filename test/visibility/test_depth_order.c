@@ -33,6 +33,11 @@ static const order_case order_cases[] = {
     {&box, &post, {0.8, 0, -0.5}, {-1, 0.3, 0.2}, 1, 0},
     {&ball, &box, {0, 0, -2}, {0.3, 0.3, 1}, 1, 0},
     {&ball, &box, {0, 0, 0}, {0.3, 0.3, 1}, 0, 0},
+    {&post, &drum, {1.3, 0, -0.2}, {1, 0.2, 0.1}, 0, 1}, /* side by side */
+    {&post, &drum, {1.3, 0, -0.2}, {-1, 0.2, 0.1}, 1, 0},
+    {&post, &drum, {1.2, 0, -0.2}, {-1, 0.2, 0.1}, 0, 0},  /* they intersect */
+    {&ball, &ball, {0.8, 0.1, 0.7}, {-1, -0.2, -1}, 1, 0}, /* no axis separates them */
+    {&horn, &dome, {2, -3, 4}, {-2, 3, -4.5}, 1, 0},       /* far behind */
 };
 
 /* Is what rounding leaves open a small fraction of every facet that is not in the plane? */

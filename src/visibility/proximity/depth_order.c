@@ -18,6 +18,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/length.h"
 #include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
@@ -44,7 +45,8 @@ static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const d
                                body->curved ? lrcsi_body_slab(body, height) : 0};
 }
 
-/* Tries the plane across one axis of `own`, on the side that does not face away from the laser. */
+/* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on the side that
+   does not face away from the laser. */
 static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
                       const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
 {
@@ -63,6 +65,29 @@ static void order_try(const lrcsi_body *front, const lrcsi_body *back, const dou
     }
 }
 
+/* A unit vector along number k of these directions: from centre to centre; the component of that
+   perpendicular to the axis of either part; to the laser. Returns 0 if it has no length. */
+static int order_normal(const lrcsi_body *front, const lrcsi_body *back, const double d[3], int k,
+                        double n[3])
+{
+    const lrcsi_body *const own[4] = {NULL, front, back, NULL};
+    for (int i = 0; i < 3; i++) {
+        n[i] = k == 3 ? d[i] : front->centre[i] - back->centre[i];
+    }
+    if (own[k]) {
+        const double *axis = own[k]->part->axis[2];
+        const double along = lrcsi_vec3_dot(n, axis);
+        for (int i = 0; i < 3; i++) {
+            n[i] -= along * axis[i];
+        }
+    }
+    if (!(lrcsi_length(n) > LRCSI_GAP_NORMAL_MIN)) {
+        return 0;
+    }
+    (void)lrcsi_length_normalise(n);
+    return 1;
+}
+
 lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_body *back,
                                          const double d[3])
 {
@@ -73,6 +98,12 @@ lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_bo
              k < axes_count(own[i]) && !(order.front_is_free.known && order.back_by_outline.known);
              k++) {
             order_try(front, back, d, own[i], own[i]->part->axis[2 - k], &order);
+        }
+    }
+    for (int k = 0; k < 4 && !(order.front_is_free.known && order.back_by_outline.known); k++) {
+        double n[3];
+        if (order_normal(front, back, d, k, n)) {
+            order_try(front, back, d, NULL, n, &order);
         }
     }
     return order;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The depth order of two parts: which lies behind the other, as seen by the laser, because a face
-   of either separates them: the deck behind a tank that stands on it, the bus behind its panels.
+/* The depth order of two parts: which lies behind the other, as seen by the laser, because a plane
+   separates them: the deck behind a tank that stands on it, a mast behind the tank beside it.
    What is behind hides nothing of what is in front, neither in truth nor by facets, however close
    the two are; and it is hidden exactly where its projection lies in that of the part in front. */
 #ifndef LRCSI_DEPTH_ORDER_H
@@ -23,7 +23,8 @@ typedef struct lrcsi_depth_order {
 } lrcsi_depth_order;
 
 /* Given: two parts, the unit vector d to the laser. It tries planes perpendicular to the axes of
-   both. */
+   both; to the line between their centres, as it is and without its component along either axis;
+   and to d. */
 lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_body *back,
                                          const double d[3]);
 
