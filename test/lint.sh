@@ -16,9 +16,12 @@ done
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 
+# Its analyzer takes nine tenths of the time. In long functions it stops at a number of states: 100,000
+# reach the same blocks of code as its default of 225,000, in half the time; 50,000 do not.
 echo 'lint: clang-tidy over src (.clang-tidy says which checks, and why not the others)'
 if ! find src -name '*.c' | LC_ALL=C sort | xargs -P 2 -I FILE clang-tidy --quiet FILE -- \
-    -std=c11 -ffp-contract=off -D_XOPEN_SOURCE=700 -Iinclude -Isrc "-I$build" >"$log" 2>&1; then
+    -std=c11 -ffp-contract=off -D_XOPEN_SOURCE=700 -Iinclude -Isrc "-I$build" \
+    -Xclang -analyzer-config -Xclang max-nodes=100000 >"$log" 2>&1; then
     grep -E ': (warning|error):' "$log" | LC_ALL=C sort -u >&2 || cat "$log" >&2
     bad=1
 fi

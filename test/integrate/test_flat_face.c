@@ -182,6 +182,54 @@ static void margins_are_attributed_to_the_shape_in_front(void **state)
     check_abs(part_error[0] + part_error[1], error[0], 0.5 * error[0]);
 }
 
+/* --- limits ------------------------------------------------------------------------------------ */
+
+/* A ball above a disc. With few steps less is known of what lies between their outlines, and the
+   bound is wider; it holds. */
+static void few_steps_widen_the_bound(void **state)
+{
+    (void)state;
+    const double tilt = 25 * PI / 180;
+    const double d[3] = {sin(tilt), 0, cos(tilt)};
+    const double truth = 4 * PI * reflect(&bright, cos(tilt)) * PI * (1 - 0.09 / cos(tilt));
+    lrcs_recipe_material material[2] = {{.name = "bright", .brdf = bright},
+                                        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    lrcs_recipe_part part[2];
+    for (int i = 0; i < 2; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = material[i].name;
+        part[i].material_index = i;
+    }
+    part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 1};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.3};
+    place_at(&part[1], 0, 0, 0.5);
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 2, .material = material, .material_count = 2};
+    const lrcs_build_options build = {1e-9, 2000, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_run_options run = lrcs_run_options_default();
+    lrcs_scene scene;
+    lrcs_work work;
+    lrcs_pose pose;
+    lrcs_result all;
+    lrcs_result r;
+    run.method = LRCS_METHOD_EXACT;
+    run.tolerance = 1e-9;
+    const lrcs_prepared *prepared = recipe_prepare(&recipe, NULL, &build, &scene, &work);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &all, NULL, NULL), LRCS_OK);
+    check_abs(all.sigma_m2, truth, all.bound_m2);
+    check_most(all.bound_m2, 1e-3 * truth);
+    int wider = 0;
+    for (uint64_t steps = all.steps / 50; steps < all.steps; steps += all.steps / 50) {
+        run.steps = steps;
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &r, NULL, NULL), LRCS_OK);
+        check_abs(r.sigma_m2, truth, r.bound_m2);
+        check_most(all.bound_m2, r.bound_m2);
+        wider += r.bound_m2 > all.bound_m2;
+    }
+    assert_true(wider > 0);
+}
+
 /* --- random faces ----------------------------------------------------------------------------- */
 
 static double between(uint64_t *state, double low, double high)
@@ -319,6 +367,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(shapes_above_a_disc),
         cmocka_unit_test(shapes_on_a_disc),
         cmocka_unit_test(margins_are_attributed_to_the_shape_in_front),
+        cmocka_unit_test(few_steps_widen_the_bound),
         cmocka_unit_test(faces_behind_many_shapes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,7 @@
 #include <lrcs/profile.h>
 
 #include "curved.h"
+#include "integrate/range/range_bins.h"
 #include "memory_limit.h"
 #include "scenes.h"
 
@@ -755,6 +756,17 @@ static void a_scene_scaled_by_a_power_of_two_has_the_same_profile(void **state)
     }
 }
 
+static void ranges_beyond_the_bins_are_in_the_outermost_ones(void **state)
+{
+    (void)state;
+    const lrcsi_range_bins bins = {.bin_m = 0.5, .width = 0.5, .first = -2, .count = 4};
+    static const double range[] = {-9, -1, -0.5, 0.25, 0.75, 1, 9};
+    static const uint32_t bin[] = {0, 0, 1, 2, 3, 3, 3};
+    for (int i = 0; i < 7; i++) {
+        assert_int_equal(lrcsi_range_bin(&bins, range[i]), bin[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -775,6 +787,7 @@ int main(void)
         cmocka_unit_test(a_pulse_on_a_tilted_plate_is_a_difference_of_error_functions),
         cmocka_unit_test(a_pulse_on_a_flat_plate_is_the_pulse),
         cmocka_unit_test(widths_and_numbers_of_bins_have_limits),
+        cmocka_unit_test(ranges_beyond_the_bins_are_in_the_outermost_ones),
         cmocka_unit_test(nothing_has_no_bins),
         cmocka_unit_test(bins_too_wide_for_the_scale_of_the_scene_are_refused),
         cmocka_unit_test(sigma_beyond_doubles_is_refused_and_loose_vertices_have_no_bins),

@@ -265,6 +265,27 @@ static void a_preview_whose_depths_are_undecided_leads_to_clipping(void **state)
     assert_string_equal(attempts.current.reason, "no raster's estimate meets the tolerance");
 }
 
+/* Symptom: areas that were found in time were accepted although their integration was not. */
+static void clipping_that_exceeds_its_limit_while_it_integrates_is_abandoned(void **state)
+{
+    (void)state;
+    for (int limited = 0; limited < 2; limited++) {
+        lrcs_work work = {.used = 7};
+        begin(LRCS_METHOD_AUTO, LRCS_METHOD_EXACT);
+        run.work = &work;
+        attempts.current = (lrcsi_attempt){.method = LRCS_METHOD_EXACT,
+                                           .limit_ns = limited ? 1 : HUGE_VAL,
+                                           .mark = 3,
+                                           .end = LRCSI_ATTEMPT_FOUND};
+        attempts.current.meter.spent = 1;
+        lrcsi_attempts_end(&run, &attempts);
+        assert_int_equal(attempts.current.end,
+                         limited ? LRCSI_ATTEMPT_ABANDONED : LRCSI_ATTEMPT_FOUND);
+        assert_int_equal(work.used, limited ? 3 : 7);
+        assert_int_equal(run.meter.spent, !limited);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +299,7 @@ int main(void)
         cmocka_unit_test(abandoned_clipping_is_tried_again_only_for_four_times_as_long),
         cmocka_unit_test(where_memory_is_short_limited_clipping_gives_way_to_rasters),
         cmocka_unit_test(any_answer_is_the_coarsest_raster),
+        cmocka_unit_test(clipping_that_exceeds_its_limit_while_it_integrates_is_abandoned),
         cmocka_unit_test(a_preview_whose_depths_are_undecided_leads_to_clipping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

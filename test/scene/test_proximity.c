@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The rows of facets on straight walls: whatever the shape, and mirrored, they run across the axis.
- */
+/* The slack between flat and round parts. The rows of facets on straight walls: whatever the shape,
+   and mirrored, they run across the axis. */
 #include "scene/proximity.h"
 
 #include "check.h"
@@ -23,6 +23,51 @@ static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror
     work = lrcs_work_make(prepare_area, sizeof prepare_area);
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     return prepared;
+}
+
+/* A ball, a box, a plate, and half a ball that is open. */
+static void the_slack_of_two_parts_is_what_both_may_differ_by(void **state)
+{
+    (void)state;
+    enum { BALL, BOX, PLATE, BOWL, PARTS };
+    static lrcs_scene scene;
+    lrcs_recipe_part part[PARTS];
+    for (int i = 0; i < PARTS; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material_index = -1;
+        part[i].place.translate[0] = 3 * i;
+    }
+    part[BALL].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 1};
+    part[BOX].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
+    part[PLATE].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
+    part[BOWL].shape =
+        (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.5, .parts = LRCS_SHAPE_WALL};
+    const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
+    const lrcs_build_options options = {1e-2, 1000, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *p = NULL;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    work = lrcs_work_make(prepare_area, sizeof prepare_area);
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &p), LRCS_OK);
+    const double ball = ldexp(scene.part[BALL].bounds.hausdorff, -p->exponent);
+    const double bowl = ldexp(scene.part[BOWL].bounds.hausdorff, -p->exponent);
+    const double most = 1 + 1e-6;
+    assert_true(ball > 0 && bowl > 0);
+    check_same(lrcsi_proximity_slack(p, BOX, PLATE), 0);
+    check_same(lrcsi_proximity_slack_across(p, BOX, PLATE, 1), 0);
+    const double slack = lrcsi_proximity_slack(p, BOX, BALL);
+    check_most(ball, slack);
+    check_most(slack, most * ball);
+    check_most(ball + p->proximity.reach[BALL], lrcsi_proximity_slack(p, BALL, BALL));
+    check_most(2 * bowl, lrcsi_proximity_slack(p, BOX, BOWL)); /* open: it counts twice */
+    /* across: what it moves by sideways, but never more than the slack; all of it if open */
+    const double whole = lrcsi_proximity_slack(p, BALL, BALL);
+    const double across = lrcsi_proximity_slack_across(p, BALL, BALL, 0.25 * ball);
+    check_most(1.25 * ball, across);
+    check_most(across, most * 1.25 * ball);
+    check_same(lrcsi_proximity_slack_across(p, BALL, BALL, 2 * whole), whole);
+    check_same(lrcsi_proximity_slack_across(p, BALL, BOWL, 0),
+               lrcsi_proximity_slack(p, BALL, BOWL));
 }
 
 /* Between a quarter and half of the height lies a quarter of the rows of every facet. */
@@ -78,6 +123,7 @@ static void facets_of_round_shapes_have_no_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_slack_of_two_parts_is_what_both_may_differ_by),
         cmocka_unit_test(rows_of_straight_walls_lie_across_the_axis),
         cmocka_unit_test(facets_of_round_shapes_have_no_rows),
     };

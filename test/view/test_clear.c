@@ -50,6 +50,8 @@ static const clear_case clear_cases[] = {
     {&post, &post, {0.5, 0, 0}, {0, 1, 0}, 0}, /* side by side they touch along a line */
     {&ball, &ball, {1, 0, 0}, {0, 1, 0}, 1},
     {&ball, &ball, {1, 0, 0}, {1, 1, 0}, 0},
+    {&ball, &ball, {0.9, 0, -0.9}, {0, 0.1, 1}, 1}, /* by the plane halfway alone */
+    {&ball, &ball, {0.9, 0, -0.9}, {0, 0.1, -1}, 0},
     {&ball, &ball, {0.25, 0, 0}, {0, 1, 0}, 0},
     {&ball, &ball, {0, 0, 0}, {0, 1, 0}, 0},
 };

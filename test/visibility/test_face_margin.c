@@ -34,6 +34,16 @@ static lrcs_shape ball_of(double radius)
     return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = radius};
 }
 
+/* The margins in a view, found in so many bytes. */
+static void find_margins_within(size_t bytes)
+{
+    static unsigned char memory[1u << 24];
+    assert_true(bytes <= sizeof memory);
+    lrcs_work room = lrcs_work_make(memory, bytes);
+    lrcsi_face_margins_make(&bands, &classification, &room, face, faces);
+    assert_int_equal(room.used, 0);
+}
+
 /* The margins of a scene of parts, divided for this tolerance. */
 static void find_margins(lrcs_recipe_part *part, uint32_t count, double tolerance,
                          const double d[3], lrcsi_meter *meter)
@@ -42,7 +52,6 @@ static void find_margins(lrcs_recipe_part *part, uint32_t count, double toleranc
         .part = part, .part_count = count, .material = &paint, .material_count = 1};
     const lrcs_build_options build = {tolerance, 1u << 16, LRCS_NORMALS_FLAT, 0, 0, NULL};
     const lrcs_prepared *prepared = recipe_prepare(&recipe, NULL, &build, &scene, &work);
-    static unsigned char memory[1u << 24];
     lrcs_pose pose;
     assert_true(count <= 256);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
@@ -50,11 +59,7 @@ static void find_margins(lrcs_recipe_part *part, uint32_t count, double toleranc
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     assert_int_equal(lrcsi_event_bands_make(&view, meter, &work, &bands), LRCS_OK);
     assert_true(bands.events.count <= 1u << 16);
-    const size_t need = lrcsi_face_margins_need(prepared);
-    assert_true(need <= sizeof memory);
-    lrcs_work room = lrcs_work_make(memory, need);
-    lrcsi_face_margins_make(&bands, &classification, &room, face, faces);
-    assert_int_equal(room.used, 0);
+    find_margins_within(lrcsi_face_margins_need(prepared));
 }
 
 /* Half the sum of gain and loss along the edges of a part that are added to the first face: the
@@ -299,6 +304,34 @@ static void steps_grow_like_the_number_of_faces(void **state)
     assert_true(taken[1] >= 3 * taken[0] && taken[1] <= 6 * taken[0]);
 }
 
+/* With less memory or fewer steps less is known, and what is known is right. */
+static void little_memory_and_few_steps_leave_more_open(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part[2] = {part_at(disc, 0, 0, 0), part_at(ball_of(0.3), 0, 0, 0.4)};
+    find_margins(part, 2, 1e-2, oblique, NULL);
+    const size_t need = lrcsi_face_margins_need(view.prepared);
+    const double area = polygon_beyond_circle(0.3);
+    const double least = face[FACE].error;
+    unsigned unknown[2] = {0, 0};
+    unsigned wider[2] = {0, 0};
+    for (int by_steps = 0; by_steps < 2; by_steps++) {
+        for (uint64_t limit = 0; limit < need; limit += 1 + limit / 4) {
+            lrcsi_meter meter = {.limit = by_steps ? limit : UINT64_MAX};
+            bands.meter = &meter;
+            find_margins_within(by_steps ? need : (size_t)limit);
+            assert_true(meter.taken <= meter.limit);
+            unknown[by_steps] += !face[FACE].known;
+            if (face[FACE].known && edges_on_face(CASTER) > 50) { /* all of the outline */
+                assert_true(face[FACE].error >= least);
+                check_abs(face[FACE].area, area, face[FACE].error);
+                wider[by_steps] += face[FACE].error > least;
+            }
+        }
+        assert_true(unknown[by_steps] > 0 && wider[by_steps] > 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +343,7 @@ int main(void)
         cmocka_unit_test(not_beside_a_facet_in_the_plane),
         cmocka_unit_test(nothing_changes_on_a_hidden_face),
         cmocka_unit_test(margins_on_faces_one_behind_the_other),
+        cmocka_unit_test(little_memory_and_few_steps_leave_more_open),
         cmocka_unit_test(steps_grow_like_the_number_of_faces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -173,6 +173,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     assert_true(o.known);
     const lrcsi_topology *topology = &view.prepared->topology;
     lrcsi_outline_areas sum = {.gain = 0};
+    lrcsi_outline_margin margins = {0, 0, 0};
     double from[2] = {0, 0};
     int count = 0;
     for (uint32_t e = 0; e < topology->edge_count; e++) {
@@ -181,8 +182,14 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
         const double *b = view.point[topology->edge[e].high].x;
         if (side != 0) {
             lrcsi_outline_areas areas = lrcsi_outline_areas_make(&o, a, b, side);
+            lrcsi_outline_margin margin = lrcsi_outline_margin_make(&o, a, b, side);
             sum.gain += areas.gain;
             sum.loss += areas.loss;
+            margins.area += margin.area;
+            margins.error += margin.error;
+            assert_int_equal(isfinite(margin.error), isfinite(areas.gain));
+            check_most(margin.area, areas.gain);
+            check_most(-margin.area, areas.loss);
             from[0] += 0.5 * (a[0] + b[0]);
             from[1] += 0.5 * (a[1] + b[1]);
             count++;
@@ -228,6 +235,10 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     check_most(gain, sum.gain * 1.01 + err);
     check_most(loss, sum.loss * 1.01 + err);
     if (isfinite(sum.gain)) { /* the bounds are not far too wide */
+        /* of RAYS; and near the ends of edges, which turn by 2 pi (face_margin.c) */
+        const double rays = 0.02 * (gain + loss) + err + 4 * o.k * o.k * 4 * LRCS_PI;
+        check_abs(margins.area, gain - loss, margins.error + rays);
+        check_most(margins.error, 0.2 * (gain + loss) + err);
         check_most(fmax(sum.gain, sum.loss), 4 * fmax(gain, loss) + err);
     }
 }
@@ -294,8 +305,11 @@ static void nothing_is_known_along_edges_without_length_side_or_outline(void **s
     assert_true(o.known);
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 0).gain));
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, a, 1).gain));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 0).error));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, a, 1).error));
     o.known = 0;
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 1).loss));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 1).error));
 }
 
 int main(void)

@@ -200,7 +200,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
                                             glint_slope_s(curved->glint_u, s),
                                             -0.5 * curved->diffuse_log};
             response_sum(to, 1, &at);
-        } else if (fraction != 0 || corrected || wall) {
+        } else {
             response_patches found = patches_find(view, plan, &own, &unit, f, patches);
             lrcsi_unit_response at = facet_response(&own, &unit, u, &found);
             if (wall) {
