@@ -252,9 +252,11 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
    1. none if it is an edge of the facet's own part, of which the laser sees no inside;
    2. none but what a proof leaves open if its part is behind the facet's;
    3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
-   4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
+   4. of that, where the part is in front of the facet, what is within the depths of the region
+      between the outlines;
+   5. all of that as gain and loss where the part lies on both sides of the edge; else what is on
       the inner side as gain, on the outer side as loss;
-   5. but only what lies in the region between outlines, where the part is in front of the facet.
+   6. but no more than the areas of the region.
    Returns 0 if there are none. */
 int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
                           int correspondence, lrcsi_event_band *f)
@@ -295,10 +297,10 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
     const double *const corner[3] = {bands->view->point[vertex[0]].x,
                                      bands->view->point[vertex[1]].x,
                                      bands->view->point[vertex[2]].x};
-    double whole = 0.5 * p->normal[facet].length; /* 4 */
+    double whole = 0.5 * p->normal[facet].length;
     double longest = lrcsi_proximity_longest(p, facet);
     lrcsi_outline_areas region = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, 0};
-    if (in_front && side != 0) { /* 5 */
+    if (in_front && side != 0) { /* 4 */
         const double delta = (correspondence == LRCSI_ALIGNED ? 0 : at->lateral) + err;
         region = outline_region(bands, event, delta);
         slice = lrcsi_edge_rectangle_limit(slice, &box, side, region.gain_depth);
@@ -309,7 +311,7 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
     } else {
         f->unproved = 0;
     }
-    f->rows = lrcsi_proximity_rows(p, facet, corner, &slice);
+    f->rows = lrcsi_proximity_rows(p, facet, corner, &slice); /* 5 */
     f->area = f->gain = f->loss = lrcsi_slice_fraction(&slice, whole, longest);
     if (side == 0) {
         return 1;
@@ -320,7 +322,7 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
-    if (isfinite(region.gain)) {
+    if (isfinite(region.gain)) { /* 6 */
         const double gain = fraction_of(bands->view, facet, region.gain);
         const double loss = fraction_of(bands->view, facet, region.loss);
         f->area = lrcsi_min(f->area, gain + loss);
