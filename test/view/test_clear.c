@@ -47,7 +47,9 @@ static const clear_case clear_cases[] = {
     {&post, &post, {3, 0, 0}, {1, 0, 0.25}, 0},
     {&post, &post, {0, 0, 1}, {1, 1, 1}, 0},
     {&post, &post, {0, 0, 1}, {1, 1, -1}, 1},
-    {&post, &post, {0.5, 0, 0}, {0, 1, 0}, 0}, /* side by side they touch along a line */
+    {&post, &post, {0.5, 0, 0}, {0, 1, 0}, 0},    /* side by side they touch along a line */
+    {&post, &post, {0.55, 0, 0.9}, {0, 1, 0}, 1}, /* by the plane along both axes alone */
+    {&post, &post, {0.45, 0, 0.9}, {0, 1, 0}, 0},
     {&ball, &ball, {1, 0, 0}, {0, 1, 0}, 1},
     {&ball, &ball, {1, 0, 0}, {1, 1, 0}, 0},
     {&ball, &ball, {0.9, 0, -0.9}, {0, 0.1, 1}, 1}, /* by the plane halfway alone */

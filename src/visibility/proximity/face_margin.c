@@ -403,17 +403,23 @@ static int margin_visibility(face_job *job, const edge_margin *m)
     for (int k = 0; k < 3; k++) {
         point[k] = job->face.centre[k] + at[0] * part->axis[0][k] + at[1] * part->axis[1][k];
     }
-    const uint32_t end = part->first_facet + part->facet_count;
-    const int counted = lrcsi_meter_take(job->bands->meter, part->facet_count);
-    for (uint32_t f = part->first_facet; f < end && counted; f++) {
-        if (lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x)) {
-            int answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
-            if (answer != LRCSI_QUERY_UNDECIDED) {
-                return answer;
+    const double here[3] = {x[0], x[1], 0};
+    const lrcsi_view_box box = lrcsi_view_box_round(view, here, here);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(&job->facets, &box);
+    lrcsi_grid_items items;
+    int answer = LRCSI_QUERY_UNDECIDED;
+    while (lrcsi_grid_next_row(&job->facets, &buckets, &items)) {
+        const int counted = lrcsi_meter_take(job->bands->meter, (uint64_t)items.to - items.from);
+        for (uint32_t i = items.from; i < items.to && counted; i++) {
+            const uint32_t f = job->facets.item[i];
+            if (view->prepared->scene->facet_part[f] == job->face.part &&
+                lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x) &&
+                answer == LRCSI_QUERY_UNDECIDED) {
+                answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             }
         }
     }
-    return LRCSI_QUERY_UNDECIDED;
+    return answer;
 }
 
 /* --- all faces -------------------------------------------------------------------------------- */
