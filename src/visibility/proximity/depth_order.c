@@ -45,8 +45,8 @@ static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const d
                                body->curved ? lrcsi_body_slab(body, height) : 0};
 }
 
-/* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on the side that
-   does not face away from the laser. */
+/* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on the side
+   that does not face away from the laser. */
 static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
                       const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
 {
