@@ -41,17 +41,22 @@
 
    4. Parts in front. Where a Q with at most one opening is in front of the plane of a flat facet,
    or a plane separates it from P behind it (visibility/proximity/part_order.c), (1) need not be
-   considered, and y is gained or lost along the event edge of (2) that is nearest to it, and there
-   only within the region of outline.c, 2. In it delta is the distance in projection of x from y,
-   and for the plane of a facet the error of outline.c, 1, as well. So of the rectangle along
-   each edge only what is within the region's depths counts, and at most the area of the region.
+   considered, and y is gained or lost along the event edge of Q that is nearest to it in
+   projection, however far behind y that is: the contour of the facets may lie far below the true
+   one, and what Q hides depends on projections alone. It is gained or lost only within the region
+   of outline.c, 2. In it delta is the distance in projection of x from y, and for the plane of a
+   facet the error of outline.c, 1, as well. So of the rectangle along each edge only what is within
+   the region's depths counts, and at most the area of the region. The edge itself remains in its
+   band, with more than sqrt(2) delta and the errors of positions on either side, because no depth
+   is negative: so it crosses no facet that meets no band.
 
    5. Aligned points. Let x now be the point of the true surface whose projection is that of
    y, so that both lie on a line along d, at a distance of at most 30 e_P. Let every other part Q be
    in front of P or behind it (part_order.c, 1), or have no facet within 32 slacks of the facet of y
    (scene/proximity.h). Then (1) need not be considered, and Q hides x if and only if its facets
-   hide y, unless an event edge of Q is, in projection, within r' of both and not 64 slacks behind
-   y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P = 0. Proof:
+   hide y, unless an event edge of Q is, in projection, within r' of both and, if Q is not in front
+   of P, not 64 slacks behind y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P = 0.
+   Proof:
    - If Q is behind P, it hides neither.
    - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
      a point z changes only where the projection of z crosses an event edge. So the steps b to e
@@ -227,6 +232,21 @@ static double fraction_of(const lrcsi_view *view, uint32_t facet, double area)
     return projected > COS_MIN * whole ? area / projected * (1 + LRCSI_VIEW_COS_ERR) : HUGE_VAL;
 }
 
+/* Is an event edge of another part so far behind a facet that it does not matter? Where points are
+   aligned, no edge of a part in front of the facet's is: 5. */
+static int event_is_behind(lrcsi_event_bands *bands, uint32_t facet, uint32_t event, int is_aligned)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const uint32_t part = bands->events.part[event];
+    const double slack = (is_aligned ? LRCSI_PROXIMITY_NEAR : 1) *
+                         lrcsi_proximity_slack(p, facet_part(bands, facet), part);
+    double unproved;
+    return lrcsi_edge_rectangle_behind(bands->view, facet,
+                                       &p->topology.edge[bands->events.edge[event]], slack) &&
+           !(is_aligned &&
+             lrcsi_part_is_separated_in_front(&bands->orders, facet, part, &unproved));
+}
+
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
    component perpendicular to the edge counts. */
@@ -251,7 +271,8 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
 /* Finds the fractions near an event edge:
    1. none if it is an edge of the facet's own part, of which the laser sees no inside;
    2. none but what a proof leaves open if its part is behind the facet's;
-   3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
+   3. what of the facet lies in the rectangle about the edge, unless the edge is behind it, and its
+      part not in front;
    4. of that, where the part is in front of the facet, what is within the depths of the region
       between the outlines;
    5. all of that as gain and loss where the part lies on both sides of the edge; else what is on
@@ -263,7 +284,6 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
 {
     const uint32_t facet = at->facet;
     const lrcs_prepared *p = bands->view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
     int is_own = bands->events.part[event] == facet_part(bands, facet);
     int side = is_own ? 0 : bands->events.side[event];
     *f = (lrcsi_event_band){.unproved = 0};
@@ -286,11 +306,8 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
         event_rectangle(bands, at, event, correspondence, slack, err); /* 3 */
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
     if (slice.count == 0 ||
-        (!is_own &&
-         lrcsi_edge_rectangle_behind(
-             bands->view, facet, edge,
-             (correspondence == LRCSI_ALIGNED ? LRCSI_PROXIMITY_NEAR : 1) *
-                 lrcsi_proximity_slack(p, facet_part(bands, facet), bands->events.part[event])))) {
+        (!is_own && !in_front &&
+         event_is_behind(bands, facet, event, correspondence == LRCSI_ALIGNED))) {
         return 0;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
@@ -350,8 +367,7 @@ unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at,
         }
         slack = p->proximity.hausdorff[own] + LRCSI_PROXIMITY_ERR;
     } else if (lrcsi_part_is_behind(&bands->orders, facet, part, &unproved) ||
-               lrcsi_edge_rectangle_behind(
-                   view, facet, edge, LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, own, part))) {
+               event_is_behind(bands, facet, event, 1)) {
         return 0;
     }
     const lrcsi_edge_rectangle box =

@@ -27,7 +27,8 @@
      points of the boundary of K, in order along it. Their polygon lies in K, so x is on the other
      side of it, and y no farther than delta from there: where the polygon's slope is at most 1,
      0 <= depth <= polygon(t) + sqrt(2) delta.
-   - Loss (y outside K'): the nearest point may also be an end of the edge, so
+   - Loss (y outside K'): the nearest point may also be an end of the edge (y is outside one of the
+     two edges there at least), so
      -2 k <= t <= L + 2 k. K lies within its tangents at the points q_j, so
      0 <= -depth <= -tangents(t) + sqrt(2) delta.
    The areas of these two regions are integrals over t of piecewise linear functions, and the

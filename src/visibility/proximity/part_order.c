@@ -58,13 +58,20 @@ int lrcsi_part_is_behind(lrcsi_part_orders *orders, uint32_t facet, uint32_t par
            proof_holds(orders, facet, &depth_order(orders, own, part)->front_is_free, unproved);
 }
 
+int lrcsi_part_is_separated_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t part,
+                                     double *unproved)
+{
+    uint32_t own = orders->view->prepared->scene->facet_part[facet];
+    *unproved = 0;
+    return orders->body &&
+           proof_holds(orders, facet, &depth_order(orders, part, own)->back_by_outline, unproved);
+}
+
 int lrcsi_part_is_separated(lrcsi_part_orders *orders, uint32_t facet, uint32_t part,
                             double *unproved)
 {
-    uint32_t own = orders->view->prepared->scene->facet_part[facet];
     return lrcsi_part_is_behind(orders, facet, part, unproved) ||
-           (orders->body &&
-            proof_holds(orders, facet, &depth_order(orders, part, own)->back_by_outline, unproved));
+           lrcsi_part_is_separated_in_front(orders, facet, part, unproved);
 }
 
 int lrcsi_part_is_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t part, double *err,
@@ -83,8 +90,7 @@ int lrcsi_part_is_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t p
         return 1;
     }
     *err = 0;
-    return orders->body &&
-           proof_holds(orders, facet, &depth_order(orders, part, own)->back_by_outline, unproved);
+    return lrcsi_part_is_separated_in_front(orders, facet, part, unproved);
 }
 
 size_t lrcsi_part_orders_need(const lrcs_prepared *p)

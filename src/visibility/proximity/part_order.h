@@ -39,6 +39,11 @@ int lrcsi_part_is_behind(lrcsi_part_orders *orders, uint32_t facet, uint32_t par
 int lrcsi_part_is_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t part, double *err,
                            double *unproved);
 
+/* Does a plane separate a part, in front, from the facet's own part, except for the fraction
+   *unproved of the facet? */
+int lrcsi_part_is_separated_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t part,
+                                     double *unproved);
+
 /* Does a plane separate a part from the facet's own part, so that it is behind it or in front of
    it, except for the fraction *unproved? */
 int lrcsi_part_is_separated(lrcsi_part_orders *orders, uint32_t facet, uint32_t part,
