@@ -245,15 +245,16 @@ static void nothing_changes_on_a_hidden_face(void **state)
     check_abs(face[FACE].error, 0, 0);
 }
 
-/* Of two discs under the ball, the upper one hides the lower one where the margins are. */
+/* Of two discs under the ball, the upper one hides the lower one where the margins are. A third face
+   under them has no margins. */
 static void margins_on_faces_one_behind_the_other(void **state)
 {
     (void)state;
     lrcs_shape upper = disc;
     upper.radius = 0.8;
-    lrcs_recipe_part part[3] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
-                                part_at(upper, 0, 0, 0)};
-    find_margins(part, 3, 1e-3, (const double[3]){0.2, 0.1, 1}, NULL);
+    lrcs_recipe_part part[4] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
+                                part_at(upper, 0, 0, 0), part_at(disc, 0, 0, -1)};
+    find_margins(part, 4, 1e-3, oblique, NULL);
     const uint32_t edges = edges_on_face(CASTER);
     uint32_t both = 0;
     for (uint32_t i = 0; i < bands.events.count; i++) {
@@ -264,6 +265,7 @@ static void margins_on_faces_one_behind_the_other(void **state)
     check_abs(face[2].area, polygon_beyond_circle(0.3), face[2].error);
     check_most(face[2].error, 0.1 * error_without_signs(CASTER));
     assert_true(face[FACE].known);
+    assert_false(face[3].known);
     check_most(face[FACE].error, 1e-12);
 }
 
