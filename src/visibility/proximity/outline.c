@@ -22,7 +22,8 @@
    edge, 0 .. L, and the depth, perpendicular to it, positive towards the facets of Q. Let y be a
    point of K' and x one outside K, or y a point outside K' and x one of K, at a distance of at most
    delta from each other, delta <= k. Then y is within k + delta of the boundary of K'. Let the edge
-   be the one nearest to y.
+   be the one nearest to y; of a gain, on the side on which x leaves K, which matters only where K
+   is thinner than delta.
    - Gain (y in K'): the nearest point of the boundary is on the edge, so 0 <= t <= L. Let q_j be
      points of the boundary of K, in order along it. Their polygon lies in K, so x is on the other
      side of it, and y no farther than delta from there: where the polygon's slope is at most 1,
