@@ -30,10 +30,10 @@ static int axes_count(const lrcsi_body *body)
     return !body->part->rigid ? 0 : body->curved ? 1 : 3;
 }
 
-/* Is the area of a part's surface in a slab across the axis of `own` known? */
-static int has_slab(const lrcsi_body *body, const lrcsi_body *own)
+/* Is the area of a part's surface in a slab known, across its own axis or another direction? */
+static int has_slab(const lrcsi_body *body, int is_own)
 {
-    return body->part->bounds.reach == 0 || (body->curved && body == own && body->beyond == 0);
+    return body->part->bounds.reach == 0 || (body->curved && is_own && body->beyond == 0);
 }
 
 static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],
@@ -56,10 +56,10 @@ static void order_try(const lrcsi_body *front, const lrcsi_body *back, const dou
     if (gap.separates) {
         order->front_is_free = order->back_by_outline = proof_make(front, 1, n, -HUGE_VAL, 0);
     }
-    if (gap.is_zero && has_slab(front, own)) {
+    if (gap.is_zero && has_slab(front, own == front)) {
         order->front_is_free = proof_make(front, 1, n, gap.low + gap.height, gap.height);
     }
-    if (gap.is_zero && has_slab(back, own)) {
+    if (gap.is_zero && has_slab(back, own == back)) {
         double high = lrcsi_body_support_all(back, n);
         order->back_by_outline = proof_make(back, -1, n, gap.height - high, gap.height);
     }
