@@ -182,6 +182,39 @@ static void margins_are_attributed_to_the_shape_in_front(void **state)
     check_abs(part_error[0] + part_error[1], error[0], 0.5 * error[0]);
 }
 
+/* Parts from number 63 on share what is known of the causes of errors: their common error is divided
+   in proportion to their reaches. A row of equal drums, each in the shadow of the next. */
+static void errors_of_many_parts_are_divided_among_them(void **state)
+{
+    (void)state;
+    enum { DRUMS = 70 };
+    static lrcs_recipe_part part[DRUMS];
+    lrcs_recipe_material material = {.name = "bright", .brdf = bright};
+    const double d[3] = {1, 0.05, 0.7};
+    double error[DRUMS];
+    double sum = 0;
+    for (int i = 0; i < DRUMS; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = "bright";
+        part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1};
+        place_at(&part[i], 2.3 * i, 0, 0);
+    }
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = DRUMS, .material = &material, .material_count = 1};
+    const lrcs_build_options build = {0.1, 1u << 10, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_run_options run = lrcs_run_options_default();
+    run.method = LRCS_METHOD_EXACT;
+    run.part_error_m2 = error;
+    const double all = recipe_run(&recipe, &build, &run, d).budget.tessellation_m2;
+    for (int i = 0; i < DRUMS; i++) {
+        sum += error[i];
+    }
+    assert_true(all > 0 && sum >= all * (1 - 1e-9) && sum <= 2 * all);
+    check_rel(error[64], error[69], 1e-9); /* reaches differ by rounding in placing */
+    check_most(error[30], 3 * error[65]);
+    check_most(error[65], 3 * error[30]);
+}
+
 /* --- limits ------------------------------------------------------------------------------------ */
 
 /* A ball above a disc. With few steps or little memory less is known of what lies between their
@@ -382,6 +415,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(shapes_above_a_disc),
         cmocka_unit_test(shapes_on_a_disc),
         cmocka_unit_test(margins_are_attributed_to_the_shape_in_front),
+        cmocka_unit_test(errors_of_many_parts_are_divided_among_them),
         cmocka_unit_test(few_steps_and_little_memory_widen_the_bound),
         cmocka_unit_test(faces_behind_many_shapes),
     };

@@ -458,15 +458,14 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     return area;
 }
 
-/* Notes that a face includes the margin of an event edge, if it does not yet, and not too many do.
-   */
+/* Notes that one more face includes the margin of an event edge, unless too many do. */
 static int edge_faces_add(lrcsi_edge_faces *faces, uint32_t part)
 {
     int i = 0;
-    while (i < LRCSI_EDGE_FACES && faces->part[i] != LRCS_NONE && faces->part[i] != part) {
+    while (i < LRCSI_EDGE_FACES && faces->part[i] != LRCS_NONE) {
         i++;
     }
-    if (i == LRCSI_EDGE_FACES || faces->part[i] == part) {
+    if (i == LRCSI_EDGE_FACES) {
         return 0;
     }
     faces->part[i] = part;
