@@ -235,11 +235,11 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         add_tessellation_errors(&run);
     }
     total_finish(&run); /* 6 */
+    const double shared = run.shared_reach > 0 ? run.shared_error / run.shared_reach : 0;
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
-        if (i >= LRCSI_PART_SET_SINGLE && run.shared_error > 0) {
-            part_error[i] += run.shared_error * (p->scene->part[i].bounds.reach / run.shared_reach);
-        }
-        part_error[i] = lrcsi_prepared_area(p, part_error[i]);
+        const double share =
+            i < LRCSI_PART_SET_SINGLE ? 0 : shared * p->scene->part[i].bounds.reach;
+        part_error[i] = lrcsi_prepared_area(p, part_error[i] + share);
     }
     if (replaced && !run.bounds_tessellation) {
         run.total.tessellation = -1;
