@@ -9,6 +9,20 @@
 
 #include "check.h"
 
+/* A recipe of two parts that have no shapes yet: the first bright, the other black. */
+static inline lrcs_recipe recipe_bright_and_black(const lrcs_brdf *bright, lrcs_recipe_part part[2],
+                                                  lrcs_recipe_material material[2])
+{
+    material[0] = (lrcs_recipe_material){.name = "bright", .brdf = *bright};
+    material[1] = (lrcs_recipe_material){.name = "black", .brdf = {0, 0, 1, 0}};
+    for (int i = 0; i < 2; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material = material[i].name;
+        part[i].material_index = i;
+    }
+    return (lrcs_recipe){.part = part, .part_count = 2, .material = material, .material_count = 2};
+}
+
 /* Given: models of parts that are files, or NULL. Returned: the prepared scene; *work: the memory that is left, behind it. */
 static inline const lrcs_prepared *recipe_prepare(const lrcs_recipe *recipe,
                                                   const lrcs_mesh *models,

@@ -156,20 +156,12 @@ static void margins_are_attributed_to_the_shape_in_front(void **state)
     double error[3];
     double part_error[2];
     for (int i = 2; i >= 0; i--) {
-        lrcs_recipe_part part[2] = {{.place = lrcs_place_default()},
-                                    {.place = lrcs_place_default()}};
-        lrcs_recipe_material material[2] = {{.name = "bright", .brdf = bright},
-                                            {.name = "black", .brdf = {0, 0, 1, 0}}};
+        lrcs_recipe_part part[2];
+        lrcs_recipe_material material[2];
+        const lrcs_recipe recipe = recipe_bright_and_black(&bright, part, material);
         part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 1};
         part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.1};
         place_at(&part[1], 0.55, 0, 0);
-        for (int k = 0; k < 2; k++) {
-            part[k].name = "";
-            part[k].material = material[k].name;
-            part[k].material_index = k;
-        }
-        const lrcs_recipe recipe = {
-            .part = part, .part_count = 2, .material = material, .material_count = 2};
         const lrcs_build_options build = {1e-4, 1u << 16, LRCS_NORMALS_FLAT, 1, 1e-2, halved[i]};
         lrcs_run_options run = lrcs_run_options_default();
         run.method = LRCS_METHOD_EXACT;
@@ -225,19 +217,12 @@ static void few_steps_and_little_memory_widen_the_bound(void **state)
     const double tilt = 25 * PI / 180;
     const double d[3] = {sin(tilt), 0, cos(tilt)};
     const double truth = 4 * PI * reflect(&bright, cos(tilt)) * PI * (1 - 0.09 / cos(tilt));
-    lrcs_recipe_material material[2] = {{.name = "bright", .brdf = bright},
-                                        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    lrcs_recipe_material material[2];
     lrcs_recipe_part part[2];
-    for (int i = 0; i < 2; i++) {
-        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
-        part[i].material = material[i].name;
-        part[i].material_index = i;
-    }
+    const lrcs_recipe recipe = recipe_bright_and_black(&bright, part, material);
     part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = 1};
     part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.3};
     place_at(&part[1], 0, 0, 0.5);
-    const lrcs_recipe recipe = {
-        .part = part, .part_count = 2, .material = material, .material_count = 2};
     const lrcs_build_options build = {1e-9, 2000, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_run_options run = lrcs_run_options_default();
     lrcs_scene scene;

@@ -60,14 +60,9 @@ static int scene_check(void)
     static const double tolerances[5] = {1, 0.5, 0.2, 0.1, 0.05};
     static const double up[3] = {0, 0, 1};
     static const lrcs_brdf bright = {0, 0.7, 1, 0};
-    lrcs_recipe_material material[2] = {{.name = "bright", .brdf = bright},
-                                        {.name = "black", .brdf = {0, 0, 1, 0}}};
+    lrcs_recipe_material material[2];
     lrcs_recipe_part part[2];
-    for (int i = 0; i < 2; i++) {
-        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
-        part[i].material = material[i].name;
-        part[i].material_index = i;
-    }
+    const lrcs_recipe recipe = recipe_bright_and_black(&bright, part, material);
     const double tolerance = tolerances[one_of(5)];
     const double strip = 0.04 * fmin(tolerance, 0.15); /* about as wide as the outlines differ */
     const double inside = strip * between(0.02, 0.5);
@@ -81,8 +76,6 @@ static int scene_check(void)
     part[0].place.translate[0] = (1 - inside) * cos(azimuth);
     part[0].place.translate[1] = (1 - inside) * sin(azimuth);
     part[0].place.translate[2] = z;
-    const lrcs_recipe recipe = {
-        .part = part, .part_count = 2, .material = material, .material_count = 2};
     const lrcs_build_options build = {tolerance, 1u << 15, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_run_options run = lrcs_run_options_default();
     run.method = one_of(5) > 0 ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;

@@ -12,6 +12,7 @@
 
 #include "check.h"
 #include "ray_caster.h"
+#include "recipe.h"
 #include "shape_scenes.h"
 
 /* --- one build of it -------------------------------------------------------------------------- */
@@ -438,6 +439,7 @@ static void a_contour_far_below_the_true_one_counts(void **state)
 {
     (void)state;
     static const double up[3] = {0, 0, 1};
+    static const lrcs_brdf bright = {0, 0.7, 1, 8};
     static const double ball[3][3] = {{0.99750279641627004, 0, 0.070626985931166675},
                                       {0, 1, 0},
                                       {-0.070626985931166675, 0, 0.99750279641627004}};
@@ -450,14 +452,9 @@ static void a_contour_far_below_the_true_one_counts(void **state)
     const double strip = limb - 0.02 * (plate_x - 0.5 * width);
     const double truth[2] = {4 * LRCS_PI * 0.7 * (0.02 * width - strip), 0.001214353032};
     for (int box = 0; box < 2; box++) {
-        lrcs_recipe_material material[2] = {{.name = "bright", .brdf = {0, 0.7, 1, 8}},
-                                            {.name = "black", .brdf = {0, 0, 1, 0}}};
+        lrcs_recipe_material material[2];
         lrcs_recipe_part part[2];
-        for (int k = 0; k < 2; k++) {
-            part[k] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
-            part[k].material = material[k].name;
-            part[k].material_index = k;
-        }
+        const lrcs_recipe recipe = recipe_bright_and_black(&bright, part, material);
         part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {width, 0.02}};
         part[0].place.translate[0] = plate_x;
         part[0].place.translate[2] = -0.05662633641304219;
@@ -469,8 +466,6 @@ static void a_contour_far_below_the_true_one_counts(void **state)
         }
         part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 1};
         memcpy(part[1].place.rotate, ball, sizeof ball);
-        const lrcs_recipe recipe = {
-            .part = part, .part_count = 2, .material = material, .material_count = 2};
         built b;
         build_recipe(&recipe, NULL, 0.1, 1u << 15, &b);
         const lrcs_result r = run_from(&b, up, LRCS_METHOD_EXACT);
