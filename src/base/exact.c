@@ -119,19 +119,25 @@ static int expansion_cross(const lrcsi_dd p[3], const lrcsi_dd q[3], int k, doub
     return expansion_sum(plus, pn, minus, mn, h);
 }
 
+/* h = component k of p x q times component k of r, EXACT_TERM terms at most. */
+static int det_term(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3], int k, double *h)
+{
+    double minor[EXACT_MINOR];
+    int n = expansion_cross(p, q, k, minor);
+    return expansion_times(minor, n, r[k], h);
+}
+
 /* all = p x q . r, without error, EXACT_DET terms at most. */
 static int expansion_det(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3], double *all)
 {
-    double term[3][EXACT_TERM];
-    int n[3];
-    for (int k = 0; k < 3; k++) {
-        double minor[EXACT_MINOR];
-        int m = expansion_cross(p, q, k, minor);
-        n[k] = expansion_times(minor, m, r[k], term[k]);
-    }
+    double one[EXACT_TERM];
+    double other[EXACT_TERM];
     double two[2 * EXACT_TERM];
-    int m = expansion_sum(term[0], n[0], term[1], n[1], two);
-    return expansion_sum(two, m, term[2], n[2], all);
+    int n = det_term(p, q, r, 0, one);
+    int m = det_term(p, q, r, 1, other);
+    int both = expansion_sum(one, n, other, m, two);
+    m = det_term(p, q, r, 2, other);
+    return expansion_sum(two, both, other, m, all);
 }
 
 static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3])
