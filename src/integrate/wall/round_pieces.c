@@ -35,6 +35,9 @@
    inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within
    12 + 2 (1 + 8) = 30 reaches of the facet (visibility/proximity/event_band.c, 5). */
 #define MAX_REACHES 12.0
+/* How often sectors beside a border where it is not known what is visible join the set: heuristic.
+   Such a border is as wide as an event edge's band, mostly less than a facet. */
+#define JOIN_ROUNDS 4
 
 /* One side of a wall in a view. */
 typedef struct pieces_job {
@@ -312,17 +315,15 @@ static int facet_is_eligible(const pieces_job *job, uint32_t facet)
            lrcsi_patch_exists(job->view->prepared, facet);
 }
 
-/* May a sector be used, apart from what the integrals need? */
-static int sector_is_candidate(const pieces_job *job, const lrcsi_round_sector *sector)
+/* May all facets of a sector be used, apart from what the integrals need? */
+static int sector_is_eligible(const pieces_job *job, const lrcsi_round_sector *sector)
 {
-    int uncertain = 0;
     for (int i = 0; i < sector->facets; i++) {
         if (!facet_is_eligible(job, sector->facet[i])) {
             return 0;
         }
-        uncertain |= facet_is_uncertain(job, sector->facet[i]);
     }
-    return uncertain;
+    return 1;
 }
 
 /* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. For a uniform
@@ -392,11 +393,44 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
     return known;
 }
 
+/* Integrates over the pieces of a sector, unless its integrals or margins are not known. */
+static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
+                             const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
+{
+    int known = sector_is_eligible(job, sector) && sector_has_margins(job, sector);
+    for (int i = 0; i < sector->facets && known; i++) {
+        known = facet_integrate(job, o, sector->facet[i], &terms[sector->facet[i]]);
+    }
+    for (int i = 0; i < sector->facets; i++) {
+        terms[sector->facet[i]].known = known;
+    }
+}
+
+/* Integrates over the neighbours of a sector of the set across sides beside which it is not known
+   what is visible: the margins of these sides are then inside the set, and no errors. Returns 1 if
+   any of them joined the set. */
+static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
+                                 const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
+{
+    int any = 0;
+    for (int i = 0; i < sector->sides; i++) {
+        const uint32_t neighbour = sector->side[i].neighbour;
+        lrcsi_round_sector next;
+        if (neighbour != LRCS_NONE && !terms[neighbour].known && is_on_side(job, neighbour) &&
+            side_state(job, o, &sector->side[i]) < 0 &&
+            lrcsi_round_sector_make(&job->wall, neighbour, &next)) {
+            sector_integrate(job, o, &next, terms);
+            any |= terms[neighbour].known;
+        }
+    }
+    return any;
+}
+
 /* Integrates over the pieces of one side of a wall:
-   1. chooses the sectors whose integrals and margins are all known, and integrates over their
-      pieces;
-   2. adds the rim of an open part above its inside; where it is not known, the inside is left out;
-   3. adds the margins at the border of the set.
+   1. over those of the sectors that have an uncertain facet and of which all is known;
+   2. over those of their neighbours where it is not known what is visible between them;
+   3. adds the rim of an open part above its inside; where it is not known, the inside is left out;
+   4. adds the margins at the border of the set.
    The occlusion is made when it is first needed. Returns 0 if there is no memory for it. */
 static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
                           lrcsi_round_terms *terms)
@@ -408,29 +442,32 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     for (uint32_t f = part->first_facet; f < end; f++) { /* 1 */
         if (!facet_is_eligible(job, f) || !facet_is_uncertain(job, f) ||
             !lrcsi_round_sector_make(&job->wall, f, &sector) ||
-            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried before */
-            !sector_is_candidate(job, &sector) || !sector_has_margins(job, &sector)) {
+            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0]))) { /* tried before */
             continue;
         }
         if (!*o && lrcsi_occlude_make(job->classification, job->meter, work, o) != LRCS_OK) {
             return 0;
         }
-        int known = 1;
-        for (int i = 0; i < sector.facets && known; i++) {
-            known = facet_integrate(job, *o, sector.facet[i], &terms[sector.facet[i]]);
-        }
-        for (int i = 0; i < sector.facets; i++) {
-            terms[sector.facet[i]].known = known;
-        }
-        any |= known;
+        sector_integrate(job, *o, &sector, terms);
+        any |= terms[f].known;
     }
-    if (any && job->wall.surface.side < 0 && /* 2 */
+    int joined = any;
+    for (int round = 0; round < JOIN_ROUNDS && joined; round++) { /* 2 */
+        joined = 0;
+        for (uint32_t f = part->first_facet; f < end; f++) {
+            if (terms[f].known && is_on_side(job, f) &&
+                lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
+                joined |= sector_add_neighbours(job, *o, &sector, terms);
+            }
+        }
+    }
+    if (any && job->wall.surface.side < 0 && /* 3 */
         !lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms)) {
         for (uint32_t f = part->first_facet; f < end; f++) {
             terms[f].known &= job->view->facing[f] > 0;
         }
     }
-    for (uint32_t f = part->first_facet; f < end && any; f++) { /* 3 */
+    for (uint32_t f = part->first_facet; f < end && any; f++) { /* 4 */
         if (terms[f].known && is_on_side(job, f) &&
             lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
             sector_add_margins(job, *o, &sector, terms);
