@@ -67,11 +67,16 @@
 /* Heuristics, which affect the time and the size of remainders, which are part of the bound
    whatever they are: the remainder that a rule should have, relative to F in the middle of the
    patch, unless it is negligible (lrcsi_patches); the remainder, relative to the mean, above which
-   the mean is not used, unless it is negligible; the largest number of pieces into which a patch is
-   divided in each variable. */
-#define REMAINDER_TARGET 0x1p-26
-#define REMAINDER_MAX    0x1p-10
-#define PIECES_MAX       4
+   the mean is not used, unless it is negligible; how often a patch is halved in each variable, and
+   how often where it is nearly edge-on to the laser, that is, where normals turn by more than a
+   fraction of the cosine; the multiple of what is negligible up to which F is left out there, since
+   few patches are nearly edge-on. */
+#define REMAINDER_TARGET   0x1p-26
+#define REMAINDER_MAX      0x1p-10
+#define LEVELS_MAX         2
+#define EDGE_ON_LEVELS_MAX 5
+#define NEARLY_EDGE_ON     0.1
+#define EDGE_ON_FACTOR     256
 
 /* The radii r for which M is computed: any would do, and the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
@@ -364,9 +369,20 @@ static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf,
     return known;
 }
 
-/* Piece (i, k) of n x n equal ones in alpha and phi. */
-static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
+/* Piece `index` of those that `level` halvings in phi and, unless the wall is straight, in alpha
+   make of the patch. The four pieces of one have successive indices: the last two bits are its
+   half in alpha and in phi. */
+static patch_frame frame_piece(const patch_frame *whole, int level, uint32_t index)
 {
+    const int n = 1 << level;
+    const int bits = whole->step > 0 ? 2 : 1;
+    int i = 0;
+    int k = 0;
+    for (int at = level - 1; at >= 0; at--) {
+        const uint32_t part = index >> (bits * at);
+        i = 2 * i + (int)(part >> 1 & (uint32_t)(bits - 1));
+        k = 2 * k + (int)(part & 1);
+    }
     patch_frame f = *whole;
     f.half = whole->half / n;
     f.phi = whole->phi + (2 * k + 1 - n) * f.half;
@@ -380,68 +396,120 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
     return f;
 }
 
-/* Chooses the rules for one piece. *remainder is that of their product, *middle the integrand in
-   the middle of the piece. Returns 0 if some of the piece may be edge-on to the laser. */
-static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const lrcsi_mean_rule *rule[2],
-                       double *remainder, double *middle)
+/* The weight of an element of area in the middle of a piece. */
+static double frame_weight(const patch_frame *f)
 {
-    if (!(normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
-        return 0;
+    const double cosine2 = f->cosine * f->cosine;
+    return f->step > 0 ? f->sine / (f->fourth ? cosine2 * cosine2 : 1) : 1;
+}
+
+/* An upper bound of F, with the weights, where normals differ by at most `shift` from that in the
+   middle of a piece, of which some may be edge-on. Both terms decrease with u, that of the glint
+   beyond u = 2 s^2 - 1. */
+static double edge_on_bound(const patch_frame *f, const lrcs_brdf *brdf, double shift)
+{
+    const double nu_min = f->nu - shift;
+    const double x = (f->c + shift) / nu_min; /* the largest cosine */
+    const double sine = f->sine + f->step;
+    const double cosine = fabs(f->cosine) - f->step;
+    double weight = f->step > 0 ? sine : 1;
+    if (!(nu_min > 0) || !(x < 0.5) || (f->fourth && !(cosine > 0))) {
+        return HUGE_VAL;
     }
+    double u = 1 / (x * x) - 1;
+    if (brdf->A > 0 && !(u >= 2 * brdf->s * brdf->s)) {
+        return HUGE_VAL;
+    }
+    weight /= f->fourth ? cosine * cosine * (cosine * cosine) : 1;
+    const lrcsi_reflection at = lrcsi_reflect(brdf, u * (1 - 1e-10), 0);
+    return LRCSI_OUTWARD_MICRO * weight * (f->nu + shift) * (at.glint + at.diffuse + at.error);
+}
+
+/* Chooses the rules for one piece. Returns the remainder of their product. */
+static double piece_rules(const patch_frame *f, const lrcs_brdf *brdf, double target,
+                          const lrcsi_mean_rule *rule[2])
+{
     double along_error = 0;
     double around_error;
-    lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
-    double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
-    double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
-    *middle = weight * f->nu * (at.glint + at.diffuse);
-    double target = lrcsi_max(REMAINDER_TARGET * *middle, 0.5 * f->negligible);
     rule[1] = rule_choose(f, brdf, 0, target, &around_error);
     rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &lrcsi_mean_rules[0];
-    *remainder = along_error + around_error;
-    return 1;
+    return along_error + around_error;
 }
 
-enum pieces_answer {
-    PIECES_UNKNOWN, /* a piece may be edge-on to the laser, or its rounding error is too large */
-    PIECES_COARSE,  /* more pieces are needed for a small remainder */
-    PIECES_DONE
-};
-
-/* Computes the mean over n x n pieces of the patch, without the factor of area. Returns a
-   pieces_answer. No point is evaluated unless the remainder is small enough or n is the largest
-   allowed. */
-static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, lrcsi_patch *patch)
+/* Adds the mean over a piece, times `fraction`. Returns 0 if the piece is to be divided instead,
+   which it may be `level` times already:
+   1. where the piece faces away, F is 0;
+   2. where F is negligible because the piece is nearly edge-on, it counts as error;
+   3. otherwise by rules, if their remainder is small or the piece cannot be divided any further:
+      that helps little unless it is nearly edge-on;
+   4. or else F is an error. */
+static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target, double fraction,
+                     int level, lrcsi_patch *patch)
 {
-    const lrcsi_mean_rule *rule[PIECES_MAX * PIECES_MAX][2];
-    int rows = whole->step > 0 ? n : 1;
-    double fraction = 1.0 / (rows * n);
-    double mean = 0; /* of the integrand in the middles of pieces */
+    const double shift = normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
+    if (f->c + shift <= 0) { /* 1 */
+        return 1;
+    }
+    const int is_slanting = shift < 0.25 * f->c;
+    const double bound = shift < NEARLY_EDGE_ON * f->c ? HUGE_VAL : edge_on_bound(f, brdf, shift);
+    if (bound <= f->negligible) { /* 2 */
+        patch->remainder += fraction * bound;
+        return 1;
+    }
+    const int is_smallest =
+        level >= (shift < NEARLY_EDGE_ON * f->c ? LEVELS_MAX : EDGE_ON_LEVELS_MAX);
+    if (is_slanting) { /* 3 */
+        const lrcsi_mean_rule *rule[2];
+        const lrcsi_patch before = *patch;
+        const lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
+        const double middle = frame_weight(f) * f->nu * (at.glint + at.diffuse);
+        target = lrcsi_max(lrcsi_max(REMAINDER_TARGET * middle, target), 0.5 * f->negligible);
+        const double remainder = piece_rules(f, brdf, target, rule);
+        if ((remainder <= 4 * target || (is_smallest && remainder < bound)) &&
+            patch_add_points(f, brdf, rule[0], rule[1], fraction, patch)) {
+            patch->remainder += fraction * remainder;
+            return 1;
+        }
+        *patch = before;
+    }
+    if (is_smallest) { /* 4 */
+        patch->remainder += fraction * bound;
+    }
+    return is_smallest;
+}
+
+/* Computes the mean over a patch, without the factor of area: piece by piece, where pieces are
+   divided until their remainders are small. */
+static void patch_add_pieces(patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
+{
+    const int bits = whole->step > 0 ? 2 : 1;
+    const uint32_t last = (UINT32_C(1) << bits) - 1;
+    const double shift =
+        normal_shift(whole, whole->step, lrcsi_exp(whole->step), lrcsi_exp(whole->half));
+    const lrcsi_reflection at = lrcsi_reflect(brdf, whole->u, 0);
+    const double middle = frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
+    const double target = whole->c > 0 ? REMAINDER_TARGET * middle : 0;
+    whole->negligible *= shift < NEARLY_EDGE_ON * whole->c ? 1 : EDGE_ON_FACTOR;
+    int level = 0;
+    uint32_t index = 0;
     patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
     patch->remainder = patch->rounding = 0;
-    for (int i = 0; i < rows * n; i++) {
-        patch_frame piece = frame_piece(whole, n, i / n, i % n);
-        double remainder;
-        double middle;
-        if (!piece_rules(&piece, brdf, rule[i], &remainder, &middle)) {
-            return PIECES_UNKNOWN;
+    do {
+        const patch_frame piece = frame_piece(whole, level, index);
+        if (!piece_add(&piece, brdf, target, ldexp(1, -bits * level), level, patch)) {
+            level++;
+            index <<= bits;
+            continue;
         }
-        patch->remainder += fraction * remainder;
-        mean += fraction * middle;
-    }
-    if (n < PIECES_MAX && patch->remainder > 4 * REMAINDER_TARGET * mean &&
-        patch->remainder > whole->negligible) {
-        return PIECES_COARSE;
-    }
-    int known = 1;
-    for (int i = 0; i < rows * n && known; i++) {
-        patch_frame piece = frame_piece(whole, n, i / n, i % n);
-        known = patch_add_points(&piece, brdf, rule[i][0], rule[i][1], fraction, patch);
-    }
-    return known ? PIECES_DONE : PIECES_UNKNOWN;
+        while (level > 0 && (index & last) == last) {
+            level--;
+            index >>= bits;
+        }
+        index++;
+    } while (level > 0);
 }
 
-/* The mean over the patch that patch->at identifies: in one piece or, if its remainder is too
-   large, in 4 or 16. */
+/* The mean over the patch that patch->at identifies. Returns 0 if its remainder is too large. */
 static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
                            const lrcsi_patches *patches, lrcsi_patch *patch)
 {
@@ -449,13 +517,7 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     if (!frame_make(view, facet, patches, &f, patch)) {
         return 0;
     }
-    int answer = PIECES_UNKNOWN;
-    for (int n = 1; n <= PIECES_MAX && answer != PIECES_DONE; n *= 2) {
-        answer = patch_pieces(&f, brdf, n, patch);
-    }
-    if (answer != PIECES_DONE) {
-        return 0;
-    }
+    patch_add_pieces(&f, brdf, patch);
     double area_err = f.fourth ? PATCH_AREA_ERR / (fabs(f.cosine) - f.step) : PATCH_AREA_ERR;
     patch->rounding += area_err * (patch->glint + patch->diffuse);
     patch->glint *= f.area;

@@ -406,9 +406,29 @@ static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
     }
 }
 
+/* By how much the set's errors from margins fall if a sector joins it: by those of the sides to
+   sectors of the set, less those of its other sides. */
+static double joining_gain(const pieces_job *job, const lrcsi_occlusion *o,
+                           const lrcsi_round_sector *sector, const lrcsi_round_terms *terms)
+{
+    double gain = 0;
+    for (int i = 0; i < sector->sides; i++) {
+        const lrcsi_round_side *side = &sector->side[i];
+        const int inside = side->neighbour != LRCS_NONE && terms[side->neighbour].known &&
+                           is_on_side(job, side->neighbour);
+        lrcsi_round_margin margin;
+        if (!lrcsi_round_margin_bounds(&job->wall, side, &margin)) {
+            return 0;
+        }
+        if (side_state(job, o, side) < 0) {
+            gain += inside ? margin.largest : -margin.largest;
+        }
+    }
+    return gain;
+}
+
 /* Integrates over the neighbours of a sector of the set across sides beside which it is not known
-   what is visible: the margins of these sides are then inside the set, and no errors. Returns 1 if
-   any of them joined the set. */
+   what is visible, where that reduces the error. Returns 1 if any of them joined the set. */
 static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
                                  const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
 {
@@ -418,7 +438,8 @@ static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
         lrcsi_round_sector next;
         if (neighbour != LRCS_NONE && !terms[neighbour].known && is_on_side(job, neighbour) &&
             side_state(job, o, &sector->side[i]) < 0 &&
-            lrcsi_round_sector_make(&job->wall, neighbour, &next)) {
+            lrcsi_round_sector_make(&job->wall, neighbour, &next) &&
+            joining_gain(job, o, &next, terms) > 0) {
             sector_integrate(job, o, &next, terms);
             any |= terms[neighbour].known;
         }
