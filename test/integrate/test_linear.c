@@ -111,9 +111,13 @@ static void to_view(const patch_scene *s, const double v[3], double scale, doubl
     }
 }
 
+/* F, which is 0 where the surface faces away. */
 static double reflect_at(const lrcs_brdf *brdf, double c)
 {
     double u = 1 / (c * c) - 1;
+    if (!(c > 0)) {
+        return 0;
+    }
     return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
            brdf->B * pow(c, brdf->m + 2);
 }

@@ -26,18 +26,22 @@ static double division = 2e-2; /* the tolerance that shapes are divided for */
 
 /* --- the reference ---------------------------------------------------------------------------- */
 
+/* F, which is 0 where the surface faces away. */
 static double reflect_at(const lrcs_brdf *brdf, double c)
 {
     double u = 1 / (c * c) - 1;
+    if (!(c > 0)) {
+        return 0;
+    }
     return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
            brdf->B * pow(c, brdf->m + 2);
 }
 
-/* F times the area element at azimuth phi, where the parameter t goes from 0 at the lower row of
+/* F times the area element, and the cosine of the incidence angle, at azimuth phi, where the parameter t goes from 0 at the lower row of
    the patch to 1 at the upper one. The shape is scaled along its axes and then rotated: normals are
    divided by the scales, and areas multiplied by their product and the length of that. */
 static double element_at(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                         double t, double phi)
+                         double t, double phi, double *cosine)
 {
     const double *scale = s->place.scale;
     const lrcs_part *part = &s->scene.part[0];
@@ -78,28 +82,78 @@ static double element_at(const patch_scene *s, const lrcs_brdf *brdf, const lrcs
         const double *row = s->place.rotate[i];
         c += s->view.unit[i] * (row[0] * n[0] + row[1] * n[1] + row[2] * n[2]);
     }
-    return reflect_at(brdf, patch->side * c / length) * element * length *
-           fabs(scale[0] * scale[1] * scale[2]);
+    *cosine = patch->side * c / length;
+    return reflect_at(brdf, *cosine) * element * length * fabs(scale[0] * scale[1] * scale[2]);
 }
 
-/* Gauss's rule of five points on 12 parts of each parameter. */
-static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch)
+/* A part of a patch: t and azimuth in its middle, and half its widths. */
+typedef struct cell {
+    double t, phi, half_t, half_phi;
+} cell;
+
+/* Is some of a cell edge-on, to judge by nine points of it? */
+static int cell_is_edge_on(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+                           const cell *at)
+{
+    double low = 1;
+    double high = -1;
+    for (int i = 0; i < 9; i++) {
+        double cosine;
+        (void)element_at(s, brdf, patch, at->t + (i / 3 - 1) * at->half_t,
+                         at->phi + (i % 3 - 1) * at->half_phi, &cosine);
+        low = fmin(low, cosine);
+        high = fmax(high, cosine);
+    }
+    return low < 0 && high > 0;
+}
+
+/* Gauss's rule of five points in each parameter. If some of the cell is edge-on, all of it is added
+   to *error. */
+static double cell_integral(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+                            const cell *at, double *error)
 {
     static const double x[5] = {0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                 -0.9061798459386640};
     static const double w[5] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
                                 0.2369268850561891, 0.2369268850561891};
-    const lrcs_part *part = &s->scene.part[0];
-    double wide = 4 * acos(0.0) / part->divisions.around;
     double sum = 0;
-    for (int i = 0; i < 60; i++) {
-        for (int k = 0; k < 60; k++) {
-            double t = (i / 5 + 0.5 + 0.5 * x[i % 5]) / 12;
-            double phi = wide * (patch->at.sector + (k / 5 + 0.5 + 0.5 * x[k % 5]) / 12);
-            sum += w[i % 5] * w[k % 5] * element_at(s, brdf, patch, t, phi);
+    double cosine;
+    for (int i = 0; i < 25; i++) {
+        sum += w[i % 5] * w[i / 5] *
+               element_at(s, brdf, patch, at->t + at->half_t * x[i / 5],
+                          at->phi + at->half_phi * x[i % 5], &cosine);
+    }
+    sum *= at->half_t * at->half_phi;
+    *error += cell_is_edge_on(s, brdf, patch, at) ? sum : 0;
+    return sum;
+}
+
+/* 12 parts of each parameter; those that are edge-on in part are halved in both, five times. */
+static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+                        double *error)
+{
+    cell list[16]; /* depth first: three of each of five levels wait, and one */
+    double wide = 4 * acos(0.0) / s->scene.part[0].divisions.around;
+    double sum = 0;
+    *error = 0;
+    for (int i = 0; i < 144; i++) {
+        int count = 1;
+        list[0] = (cell){(i / 12 + 0.5) / 12, wide * (patch->at.sector + (i % 12 + 0.5) / 12),
+                         1.0 / 24, wide / 24};
+        while (count > 0) {
+            const cell at = list[--count];
+            if (at.half_t < 1.0 / 24 / 31 || !cell_is_edge_on(s, brdf, patch, &at)) {
+                sum += cell_integral(s, brdf, patch, &at, error);
+                continue;
+            }
+            for (int k = 0; k < 4; k++) {
+                list[count++] =
+                    (cell){at.t + (k / 2 - 0.5) * at.half_t, at.phi + (k % 2 - 0.5) * at.half_phi,
+                           0.5 * at.half_t, 0.5 * at.half_phi};
+            }
         }
     }
-    return sum * wide / 24 / 24;
+    return sum;
 }
 
 /* --- tests ------------------------------------------------------------------------------------ */
@@ -158,14 +212,15 @@ static void shape_check(int uneven)
         if (!patch) {
             continue;
         }
-        double truth = reference(&s, &brdf, patch);
+        double reference_err;
+        double truth = reference(&s, &brdf, patch, &reference_err);
         double area = 0;
         for (uint32_t i = 0; i < patch->at.facets; i++) {
             area += lrcsi_prepared_area(s.view.prepared,
                                         0.5 * s.view.prepared->normal[i ? f ^ 1 : f].length);
         }
         double apart = fabs((patch->glint + patch->diffuse) * area - truth);
-        double most = (patch->remainder + patch->rounding) * area + 1e-11 * truth;
+        double most = (patch->remainder + patch->rounding) * area + 1e-11 * truth + reference_err;
         known++;
         closest = fmax(closest, apart / most);
         if (!(apart <= most)) {

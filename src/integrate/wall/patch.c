@@ -13,7 +13,10 @@
 
    Rows are at equal steps of alpha. With g the direction to the laser in that frame, c = g . N and
    p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta and w = 1 + u = 1 / c^2:
-   F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1).
+   F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1). Where the surface faces away, c <= 0, F is 0.
+
+   Pieces. The patch is halved in both variables, and its halves again, where the remainder of the
+   rules would be too large, or where it is nearly edge-on to the laser.
 
    Remainder. That of a rule in one variable: integrate/wall/mean_rule.h.
    The error of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q'), is at most
@@ -45,6 +48,12 @@
    weight (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between two bounds:
        nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
 
+   Edge-on. With kappa for real angles up to the ends of a piece, and c of its middle, all of it
+   faces away if c + kappa <= 0. Otherwise no cosine of incidence in it exceeds
+   x = (c + kappa) / (nu - kappa), and F is at most its value at u = 1 / x^2 - 1, if that is 2 s^2
+   or more: the diffuse term decreases with u, and the glint does where w > 2 s^2. The weights are
+   at most |sin alpha| + a, nu + kappa and (|cos alpha| - a)^-4.
+
    Rounding. N and g together have an error of at most e = LRCSI_PATCH_NORMAL_ERR: azimuths and
    angles below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few
    u. So c and p have the same error, and u has one of at most du = (2 p e + e^2 + 2 u c e) / c^2,
@@ -65,17 +74,20 @@
 
 #define PATCH_AREA_ERR (512 * LRCSI_U)
 /* Heuristics, which affect the time and the size of remainders, which are part of the bound
-   whatever they are: the remainder that a rule should have, relative to F in the middle of the
-   patch, unless it is negligible (lrcsi_patches); the remainder, relative to the mean, above which
-   the mean is not used, unless it is negligible; how often a patch is halved in each variable, and
-   how often where it is nearly edge-on to the laser, that is, where normals turn by more than a
-   fraction of the cosine; the multiple of what is negligible up to which F is left out there, since
-   few patches are nearly edge-on. */
+   whatever they are:
+   - the remainder that a rule should have, relative to F in the middle of the patch, unless it is
+     negligible (lrcsi_patches); the remainder, relative to the mean, above which the mean is not
+     used, unless it is negligible; how often a patch is halved in each variable;
+   - of pieces that are nearly edge-on, where normals move by more than a fraction of the cosine:
+     how often they are halved;
+   - of patches that may be edge-on in part, of which there are few: the remainder that is enough,
+     relative to the largest F; the multiple of what is negligible elsewhere that is negligible. */
 #define REMAINDER_TARGET   0x1p-26
 #define REMAINDER_MAX      0x1p-10
 #define LEVELS_MAX         2
-#define EDGE_ON_LEVELS_MAX 5
 #define NEARLY_EDGE_ON     0.1
+#define EDGE_ON_LEVELS_MAX 3
+#define EDGE_ON_TARGET     0x1p-14
 #define EDGE_ON_FACTOR     256
 
 /* The radii r for which M is computed: any would do, and the smallest remainder is used. */
@@ -396,6 +408,13 @@ static patch_frame frame_piece(const patch_frame *whole, int level, uint32_t ind
     return f;
 }
 
+/* Is a piece, whose normals differ by at most `shift`, so far from edge-on that rules have bounds?
+   */
+static int is_slanting(const patch_frame *f, double shift)
+{
+    return shift < 0.25 * f->c;
+}
+
 /* The weight of an element of area in the middle of a piece. */
 static double frame_weight(const patch_frame *f)
 {
@@ -403,9 +422,8 @@ static double frame_weight(const patch_frame *f)
     return f->step > 0 ? f->sine / (f->fourth ? cosine2 * cosine2 : 1) : 1;
 }
 
-/* An upper bound of F, with the weights, where normals differ by at most `shift` from that in the
-   middle of a piece, of which some may be edge-on. Both terms decrease with u, that of the glint
-   beyond u = 2 s^2 - 1. */
+/* An upper bound of F, with the weights, on a piece whose normals differ by at most `shift` from
+   that in its middle; infinite if none is known. */
 static double edge_on_bound(const patch_frame *f, const lrcs_brdf *brdf, double shift)
 {
     const double nu_min = f->nu - shift;
@@ -436,13 +454,12 @@ static double piece_rules(const patch_frame *f, const lrcs_brdf *brdf, double ta
     return along_error + around_error;
 }
 
-/* Adds the mean over a piece, times `fraction`. Returns 0 if the piece is to be divided instead,
-   which it may be `level` times already:
-   1. where the piece faces away, F is 0;
-   2. where F is negligible because the piece is nearly edge-on, it counts as error;
-   3. otherwise by rules, if their remainder is small or the piece cannot be divided any further:
-      that helps little unless it is nearly edge-on;
-   4. or else F is an error. */
+/* Adds the mean over a piece, times `fraction`, which may have been halved `level` times. Returns
+   0, and adds nothing, if it is to be halved again:
+   1. where all of it faces away, F is 0;
+   2. where F is negligible because it is nearly edge-on, F is an error;
+   3. elsewhere by rules, if their remainder is small, or is halved no further;
+   4. otherwise F is an error. */
 static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target, double fraction,
                      int level, lrcsi_patch *patch)
 {
@@ -450,15 +467,14 @@ static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
     if (f->c + shift <= 0) { /* 1 */
         return 1;
     }
-    const int is_slanting = shift < 0.25 * f->c;
     const double bound = shift < NEARLY_EDGE_ON * f->c ? HUGE_VAL : edge_on_bound(f, brdf, shift);
-    if (bound <= f->negligible) { /* 2 */
+    if (bound <= lrcsi_max(f->negligible, target)) { /* 2 */
         patch->remainder += fraction * bound;
         return 1;
     }
     const int is_smallest =
         level >= (shift < NEARLY_EDGE_ON * f->c ? LEVELS_MAX : EDGE_ON_LEVELS_MAX);
-    if (is_slanting) { /* 3 */
+    if (is_slanting(f, shift)) { /* 3 */
         const lrcsi_mean_rule *rule[2];
         const lrcsi_patch before = *patch;
         const lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
@@ -478,18 +494,21 @@ static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
     return is_smallest;
 }
 
-/* Computes the mean over a patch, without the factor of area: piece by piece, where pieces are
-   divided until their remainders are small. */
+/* Computes the mean over a patch, without the factor of area, piece by piece. Changes what counts
+   as negligible. */
 static void patch_add_pieces(patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
 {
     const int bits = whole->step > 0 ? 2 : 1;
     const uint32_t last = (UINT32_C(1) << bits) - 1;
     const double shift =
         normal_shift(whole, whole->step, lrcsi_exp(whole->step), lrcsi_exp(whole->half));
-    const lrcsi_reflection at = lrcsi_reflect(brdf, whole->u, 0);
-    const double middle = frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
-    const double target = whole->c > 0 ? REMAINDER_TARGET * middle : 0;
-    whole->negligible *= shift < NEARLY_EDGE_ON * whole->c ? 1 : EDGE_ON_FACTOR;
+    double target = 0;
+    if (!is_slanting(whole, shift)) {
+        const double most = lrcsi_min(whole->c + shift, whole->nu) / whole->nu; /* cosine */
+        const lrcsi_reflection at = lrcsi_reflect(brdf, 1 / (most * most) - 1, 0);
+        target = EDGE_ON_TARGET * frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
+        whole->negligible *= EDGE_ON_FACTOR;
+    }
     int level = 0;
     uint32_t index = 0;
     patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
@@ -526,8 +545,8 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->diffuse_log *= f.area;
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
-    return patch->remainder <=
-           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patches->negligible);
+    return patch->remainder <= lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse),
+                                         1.001 * f.negligible * f.area);
 }
 
 static int same_brdf(const lrcs_brdf *a, const lrcs_brdf *b)

@@ -8,7 +8,8 @@
 #include "integrate/plan/plan.h"
 #include "mesh/shape/tessellate.h"
 
-/* The mean of f_r cos^2 over a patch, per unit of area of the patch's facets. */
+/* The mean of f_r cos^2 over a patch, per unit of area of the patch's facets. Where the patch faces
+   away from the laser, f_r cos^2 counts as 0. */
 typedef struct lrcsi_patch {
     double glint, diffuse;
     double glint_u;      /* the mean of u times the glint, u = tan^2(theta), if asked for; else 0 */
@@ -48,8 +49,7 @@ uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
 /* The patch of a facet that is not skipped, valid until the next call. Returned: NULL if the plan
-   asks for facets, the facet has no patch, the laser may see the patch edge-on or from its other
-   side in part, or it is too large for the rules. */
+   asks for facets, the facet has no patch, or the remainder would be too large. */
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches);
 

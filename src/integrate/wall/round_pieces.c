@@ -32,9 +32,9 @@
 #define DIVISIONS_MAX 8
 /* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
    Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
-   inclination is at most 8 (integrate/wall/round_sector.h), the surface is then within
-   12 + 2 (1 + 8) = 30 reaches of the facet (visibility/proximity/event_band.c, 5). */
-#define MAX_REACHES 12.0
+   inclination is at most 17.5 (integrate/wall/round_sector.h), the surface is then within
+   22 + 2 (1 + 17.5) < 60 reaches of the facet (visibility/proximity/event_band.c, 5). */
+#define MAX_REACHES 22.0
 /* How often sectors beside a border where it is not known what is visible join the set: heuristic.
    Such a border is as wide as an event edge's band, mostly less than a facet. */
 #define JOIN_ROUNDS 4

@@ -21,7 +21,7 @@
 #define MARGIN_RULE_ALONG  lrcsi_mean_rules[LRCSI_MEAN_RULES - 2]
 #define MARGIN_RULE_ACROSS lrcsi_mean_rules[1]
 /* The least cosine of the incidence angle in the middle of a piece. */
-#define MIN_COSINE 0.16
+#define MIN_COSINE 0.07
 
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
 
@@ -256,8 +256,8 @@ static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_si
 /* The margin is divided until the remainder is small compared with its size.
 
    Inclination. Where G_max is finite over a piece, w = 1 / cos^2 is there at most 1.5 times its
-   value at the centre (integrate/wall/round_surface.h): with a cosine of 0.16 or more there, w < 59
-   and tan < 8. */
+   value at the centre (integrate/wall/round_surface.h): with a cosine of 0.07 or more there,
+   w < 307 and tan < 17.5. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_margin *margin)
 {

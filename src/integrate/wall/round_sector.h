@@ -79,7 +79,7 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
                                lrcsi_round_margin *margin);
 
 /* Makes a margin, except for the integral itself. Returns 0 if only width and area are known, or if
-   the tangent of the true surface's inclination to the view plane may exceed 8 above it. */
+   the tangent of the true surface's inclination to the view plane may exceed 17.5 above it. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_margin *margin);
 
