@@ -65,7 +65,7 @@ static lrcs_result prepared_run(const lrcs_prepared *prepared, const double d[3]
     lrcs_pose pose;
     lrcs_result result;
     run.method = method;
-    run.tolerance = 1e-12; /* means over patches have a small remainder */
+    run.tolerance = 1e-9; /* means over patches have a small remainder */
     run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL), LRCS_OK);

@@ -80,15 +80,14 @@
      used, unless it is negligible; how often a patch is halved in each variable;
    - of pieces that are nearly edge-on, where normals move by more than a fraction of the cosine:
      how often they are halved;
-   - of patches that may be edge-on in part, of which there are few: the remainder that is enough,
-     relative to the largest F; the multiple of what is negligible elsewhere that is negligible. */
+   - of patches that may be edge-on in part: the remainder that is enough, relative to the largest
+     F. */
 #define REMAINDER_TARGET   0x1p-26
 #define REMAINDER_MAX      0x1p-10
 #define LEVELS_MAX         2
 #define NEARLY_EDGE_ON     0.1
 #define EDGE_ON_LEVELS_MAX 3
 #define EDGE_ON_TARGET     0x1p-14
-#define EDGE_ON_FACTOR     256
 
 /* The radii r for which M is computed: any would do, and the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
@@ -410,7 +409,7 @@ static patch_frame frame_piece(const patch_frame *whole, int level, uint32_t ind
 
 /* Is a piece, whose normals differ by at most `shift`, so far from edge-on that rules have bounds?
    */
-static int is_slanting(const patch_frame *f, double shift)
+static int piece_is_slanting(const patch_frame *f, double shift)
 {
     return shift < 0.25 * f->c;
 }
@@ -460,8 +459,8 @@ static double piece_rules(const patch_frame *f, const lrcs_brdf *brdf, double ta
    2. where F is negligible because it is nearly edge-on, F is an error;
    3. elsewhere by rules, if their remainder is small, or is halved no further;
    4. otherwise F is an error. */
-static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target, double fraction,
-                     int level, lrcsi_patch *patch)
+static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
+                           double fraction, int level, lrcsi_patch *patch)
 {
     const double shift = normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
     if (f->c + shift <= 0) { /* 1 */
@@ -474,7 +473,7 @@ static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
     }
     const int is_smallest =
         level >= (shift < NEARLY_EDGE_ON * f->c ? LEVELS_MAX : EDGE_ON_LEVELS_MAX);
-    if (is_slanting(f, shift)) { /* 3 */
+    if (piece_is_slanting(f, shift)) { /* 3 */
         const lrcsi_mean_rule *rule[2];
         const lrcsi_patch before = *patch;
         const lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
@@ -496,18 +495,17 @@ static int piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
 
 /* Computes the mean over a patch, without the factor of area, piece by piece. Changes what counts
    as negligible. */
-static void patch_add_pieces(patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
+static void patch_add_pieces(const patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
 {
     const int bits = whole->step > 0 ? 2 : 1;
     const uint32_t last = (UINT32_C(1) << bits) - 1;
     const double shift =
         normal_shift(whole, whole->step, lrcsi_exp(whole->step), lrcsi_exp(whole->half));
     double target = 0;
-    if (!is_slanting(whole, shift)) {
+    if (!piece_is_slanting(whole, shift)) {
         const double most = lrcsi_min(whole->c + shift, whole->nu) / whole->nu; /* cosine */
         const lrcsi_reflection at = lrcsi_reflect(brdf, 1 / (most * most) - 1, 0);
         target = EDGE_ON_TARGET * frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
-        whole->negligible *= EDGE_ON_FACTOR;
     }
     int level = 0;
     uint32_t index = 0;
@@ -515,7 +513,7 @@ static void patch_add_pieces(patch_frame *whole, const lrcs_brdf *brdf, lrcsi_pa
     patch->remainder = patch->rounding = 0;
     do {
         const patch_frame piece = frame_piece(whole, level, index);
-        if (!piece_add(&piece, brdf, target, ldexp(1, -bits * level), level, patch)) {
+        if (!patch_piece_add(&piece, brdf, target, ldexp(1, -bits * level), level, patch)) {
             level++;
             index <<= bits;
             continue;
@@ -545,8 +543,8 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->diffuse_log *= f.area;
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
-    return patch->remainder <= lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse),
-                                         1.001 * f.negligible * f.area);
+    return patch->remainder <=
+           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patches->negligible);
 }
 
 static int same_brdf(const lrcs_brdf *a, const lrcs_brdf *b)
