@@ -113,6 +113,26 @@ static void order_and_threads_change_nothing(void **state)
     }
 }
 
+/* A pose after others has the division that it has alone, in a scene of its own. */
+static void a_pose_does_not_depend_on_poses_before_it(void **state)
+{
+    (void)state;
+    lrcs_result all[POSES];
+    lrcs_result alone[POSES];
+    lrcs_host_scene scene;
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
+    sweep_run(&scene, 1e-6, 0, POSES, 1, all);
+    lrcs_host_scene_free(&scene);
+    for (uint32_t i = 0; i < POSES; i++) {
+        scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
+        sweep_run(&scene, 1e-6, i, 1, 1, alone);
+        lrcs_host_scene_free(&scene);
+        assert_memory_equal(&all[i].sigma_m2, &alone[i].sigma_m2, sizeof(double));
+        assert_memory_equal(&all[i].bound_m2, &alone[i].bound_m2, sizeof(double));
+        assert_int_equal(all[i].facets_total, alone[i].facets_total);
+    }
+}
+
 /* More levels than are kept; those that were freed are built again, the same. */
 static void levels_come_and_go_without_a_trace(void **state)
 {
@@ -248,6 +268,56 @@ static void only_the_parts_that_the_error_is_due_to_are_divided(void **state)
     lrcs_host_scene_free(&scene);
 }
 
+/* The forecast of a part's error fits its kind: one refinement suffices, and the bound that it gives
+   is not much smaller than the tolerance. From the first direction the error is due to the
+   cylinder, behind the mast; from the second one to the dome, behind the cylinder. With one factor
+   of 0.45 for both kinds the dome is halved once more, into twice the facets, or more often. */
+static void one_refinement_meets_the_tolerance_without_excess(void **state)
+{
+    (void)state;
+    static const double azel[2][2] = {{0.0, 20.0}, {-90.0, 10.0}};
+    for (int i = 0; i < 2; i++) {
+        lrcs_host_scene scene;
+        lrcs_pose pose;
+        lrcs_result result;
+        lrcs_build_options build = lrcs_build_options_default();
+        lrcs_run_options options = lrcs_run_options_default();
+        options.tolerance = 1e-6;
+        assert_int_equal(lrcs_pose_from_azel(azel[i][0], azel[i][1], &pose), LRCS_OK);
+        scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
+        assert_int_equal(refine(&scene, &pose, &options, 1, &result, &build), 1);
+        assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+        assert_true(build.halvings[i == 0 ? 0 : 2] > 0);
+        check_most(0.25 * options.tolerance * result.sigma_m2, result.bound_m2);
+        lrcs_host_scene_free(&scene);
+    }
+}
+
+/* A round body that needs a few more facets than one shape may have is divided as finely as the
+   limit permits. Here twice its facets are 1.2 times the limit. */
+static void a_round_body_is_divided_up_to_the_limit_of_facets(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-6;
+    assert_int_equal(lrcs_pose_from_azel(-90, 10, &pose), LRCS_OK);
+    scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
+    uint32_t coarse = scene.scene.part[2].facet_count; /* the dome */
+    lrcs_host_scene_free(&scene);
+    uint32_t most = 5 * coarse / 3;
+    scene_make_limited(&scene, "test/host/refine_parts.toml", most);
+    assert_int_equal(scene.scene.part[2].facet_count, coarse);
+    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    assert_int_equal(build.halvings[2], 1);
+    assert_true(scene.scene.part[2].facet_count > 4 * coarse / 3);
+    assert_true(scene.scene.part[2].facet_count <= most);
+    lrcs_host_scene_free(&scene);
+}
+
 /* Where facets are not what a bound comes from, dividing them further is no use. */
 static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **state)
 {
@@ -343,9 +413,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pose_meets_its_tolerance_and_all_of_them_agree),
         cmocka_unit_test(order_and_threads_change_nothing),
+        cmocka_unit_test(a_pose_does_not_depend_on_poses_before_it),
         cmocka_unit_test(levels_come_and_go_without_a_trace),
         cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
+        cmocka_unit_test(one_refinement_meets_the_tolerance_without_excess),
+        cmocka_unit_test(a_round_body_is_divided_up_to_the_limit_of_facets),
         cmocka_unit_test(an_accepted_estimate_leaves_room_for_finer_facets),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
         cmocka_unit_test(a_tolerance_below_rounding_still_divides),
