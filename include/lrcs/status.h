@@ -8,8 +8,8 @@
 
 #define LRCS_VERSION_MAJOR 0
 #define LRCS_VERSION_MINOR 2
-#define LRCS_VERSION_PATCH 0
-#define LRCS_VERSION_TEXT  "0.2.0"
+#define LRCS_VERSION_PATCH 1
+#define LRCS_VERSION_TEXT  "0.2.1"
 
 /* "No such index": a facet without a material, a missing neighbour. */
 #define LRCS_NONE UINT32_MAX
