@@ -42,8 +42,9 @@ elif command -v python3 >/dev/null; then
     python3 examples/oracle/oracle.py "$at/lib/liblrcs.so" demo >"$scratch/python" 2>&1
     "$tool" sweep demo --az 0:315:45 --el 0 2>/dev/null | awk -F, '$1 ~ /^[0-7]$/ {
         printf "az %3d deg  sigma %.6g m2\n", $2, $4 }' >"$scratch/tool"
-    # The tool divides curved shapes as finely as each pose needs: bounds differ.
-    same python_gets_what_the_tool_says "$(sed 's/  bound .*//' "$scratch/python")" "$(cat "$scratch/tool")"
+    # The tool divides curved shapes as finely as each pose needs: both are within 1e-4 of the truth.
+    same python_gets_what_the_tool_says "$(sed 's/  bound .*//' "$scratch/python" | paste - "$scratch/tool" |
+        awk '{ printf "%s ", $2 == $8 && ($5 - $11) ^ 2 <= (2e-4 * $5) ^ 2 }')" "1 1 1 1 1 1 1 1 "
     PYTHONPATH=examples/oracle python3 - "$at/lib/liblrcs.so" >"$scratch/python" 2>&1 <<'EOF'
 import ctypes
 import math

@@ -254,7 +254,7 @@ static void shape_check(void)
 static void f_is_within_the_bounds_of_the_linear_function(void **state)
 {
     (void)state;
-    for (int i = 0; i < 40; i++) {
+    for (int i = 0; i < 60; i++) {
         shape_check();
     }
     assert_true(patches > 500);

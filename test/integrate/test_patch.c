@@ -37,9 +37,10 @@ static double reflect_at(const lrcs_brdf *brdf, double c)
            brdf->B * pow(c, brdf->m + 2);
 }
 
-/* F times the area element, and the cosine of the incidence angle, at azimuth phi, where the parameter t goes from 0 at the lower row of
-   the patch to 1 at the upper one. The shape is scaled along its axes and then rotated: normals are
-   divided by the scales, and areas multiplied by their product and the length of that. */
+/* F times the area element, and the cosine of the incidence angle, at azimuth phi, where the
+   parameter t goes from 0 at the lower row of the patch to 1 at the upper one. The shape is scaled
+   along its axes and then rotated: normals are divided by the scales, and areas multiplied by their
+   product and the length of that. */
 static double element_at(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
                          double t, double phi, double *cosine)
 {
@@ -321,9 +322,9 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
     check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCS_PI * sum), closed.sigma_m2, 1e-12);
 }
 
-/* Facets that the laser sees edge-on, or nearly, and flat ones have no mean; nor has any where
-   facets were asked for. */
-static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
+/* Patches that are edge-on in part have a mean if its remainder is small. Flat facets have none;
+   nor has any where facets were asked for. */
+static void means_at_the_limb_are_known_and_flat_parts_have_none(void **state)
 {
     (void)state;
     static patch_scene s;
@@ -332,21 +333,28 @@ static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
     const double d[3] = {1, 0.01, 0.02};
     const lrcs_place place = lrcs_place_default();
     unsigned with = 0;
+    unsigned limb = 0;
     unsigned without = 0;
     s.place = place;
     patch_scene_make(&shape, division, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.facet_count; f++) {
         lrcsi_patches patches = {.negligible = 0};
         double cosine = fabs(lrcsi_view_incidence(&s.view, f).cos_theta);
-        int made = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches) != NULL;
-        assert_false(made && (cosine <= 0.01 || s.scene.facet_smooth[f] == 0));
+        const lrcsi_patch *patch = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
+        int made = patch != NULL;
+        assert_false(made && s.scene.facet_smooth[f] == 0);
         with += made != 0;
+        if (made && cosine < s.scene.part[0].bounds.patch.turn) {
+            limb++;
+            check_most(patch->remainder, 0x1p-3 * (patch->glint + patch->diffuse));
+        }
         without += !made && cosine > 0.5 && s.scene.facet_smooth[f] != 0;
         s.plan.patches = 0;
         assert_null(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches));
         s.plan.patches = 1;
     }
     assert_true(with > 100);
+    assert_true(limb > 10);
     assert_int_equal(without, 0);
 }
 
@@ -386,7 +394,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(means_are_those_of_the_true_surface),
         cmocka_unit_test(errors_of_terms_cover_errors_of_normals),
         cmocka_unit_test(patches_of_a_cone_add_up_to_its_closed_form),
-        cmocka_unit_test(no_mean_is_given_at_the_limb_or_of_flat_parts),
+        cmocka_unit_test(means_at_the_limb_are_known_and_flat_parts_have_none),
         cmocka_unit_test(each_material_has_its_own_mean_over_a_patch),
     };
     if (argc > 2) {

@@ -6,8 +6,8 @@
    own division: its result does not depend on what other poses needed.
 
    How far the error due to a part falls is forecast by a factor for each halving, one for straight
-   walls and one for round bodies. Most poses take two runs, the second of which meets the tolerance;
-   if it does not, the next forecast starts from its errors. */
+   walls and one for round bodies. Most poses take two runs, the second of which meets the
+   tolerance; if it does not, the next forecast starts from its errors. */
 #include "host/run/refine.h"
 
 #include <math.h>
@@ -18,7 +18,8 @@
 #include "mesh/shape/revolution.h"
 
 /* Heuristics: the error due to a part falls by these factors with every halving, see choices_start.
-   If it falls less, the part is halved again; if it falls more, there are more facets than needed. */
+   If it falls less, the part is halved again; if it falls more, there are more facets than needed.
+   */
 #define ROUND_FACTOR    0.36
 #define STRAIGHT_FACTOR 0.48
 /* Divisions are chosen for this fraction of what the tolerance leaves for all parts together. */

@@ -81,13 +81,15 @@
    - of pieces that are nearly edge-on, where normals move by more than a fraction of the cosine:
      how often they are halved;
    - of patches that may be edge-on in part: the remainder that is enough, relative to the largest
-     F. */
+     F; that above which the mean is not used, relative to the mean: without it, about all of F
+     would be an error. */
 #define REMAINDER_TARGET   0x1p-26
 #define REMAINDER_MAX      0x1p-10
 #define LEVELS_MAX         2
 #define NEARLY_EDGE_ON     0.1
 #define EDGE_ON_LEVELS_MAX 3
 #define EDGE_ON_TARGET     0x1p-14
+#define EDGE_ON_MAX        0x1p-3
 
 /* The radii r for which M is computed: any would do, and the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
@@ -407,8 +409,7 @@ static patch_frame frame_piece(const patch_frame *whole, int level, uint32_t ind
     return f;
 }
 
-/* Is a piece, whose normals differ by at most `shift`, so far from edge-on that rules have bounds?
-   */
+/* Is a piece, whose normals differ by at most `shift`, far enough from edge-on for the rules? */
 static int piece_is_slanting(const patch_frame *f, double shift)
 {
     return shift < 0.25 * f->c;
@@ -457,7 +458,7 @@ static double piece_rules(const patch_frame *f, const lrcs_brdf *brdf, double ta
    0, and adds nothing, if it is to be halved again:
    1. where all of it faces away, F is 0;
    2. where F is negligible because it is nearly edge-on, F is an error;
-   3. elsewhere by rules, if their remainder is small, or is halved no further;
+   3. elsewhere by rules, if their remainder is small, or the piece is not halved any further;
    4. otherwise F is an error. */
 static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
                            double fraction, int level, lrcsi_patch *patch)
@@ -478,9 +479,10 @@ static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double t
         const lrcsi_patch before = *patch;
         const lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
         const double middle = frame_weight(f) * f->nu * (at.glint + at.diffuse);
-        target = lrcsi_max(lrcsi_max(REMAINDER_TARGET * middle, target), 0.5 * f->negligible);
-        const double remainder = piece_rules(f, brdf, target, rule);
-        if ((remainder <= 4 * target || (is_smallest && remainder < bound)) &&
+        const double small =
+            lrcsi_max(lrcsi_max(REMAINDER_TARGET * middle, target), 0.5 * f->negligible);
+        const double remainder = piece_rules(f, brdf, small, rule);
+        if ((remainder <= 4 * small || (is_smallest && remainder < bound)) &&
             patch_add_points(f, brdf, rule[0], rule[1], fraction, patch)) {
             patch->remainder += fraction * remainder;
             return 1;
@@ -493,16 +495,17 @@ static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double t
     return is_smallest;
 }
 
-/* Computes the mean over a patch, without the factor of area, piece by piece. Changes what counts
-   as negligible. */
-static void patch_add_pieces(const patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
+/* Computes the mean over a patch, without the factor of area, piece by piece. Returns 0 if some of
+   the patch may be edge-on. */
+static int patch_add_pieces(const patch_frame *whole, const lrcs_brdf *brdf, lrcsi_patch *patch)
 {
     const int bits = whole->step > 0 ? 2 : 1;
     const uint32_t last = (UINT32_C(1) << bits) - 1;
     const double shift =
         normal_shift(whole, whole->step, lrcsi_exp(whole->step), lrcsi_exp(whole->half));
+    const int all_slants = piece_is_slanting(whole, shift);
     double target = 0;
-    if (!piece_is_slanting(whole, shift)) {
+    if (!all_slants) {
         const double most = lrcsi_min(whole->c + shift, whole->nu) / whole->nu; /* cosine */
         const lrcsi_reflection at = lrcsi_reflect(brdf, 1 / (most * most) - 1, 0);
         target = EDGE_ON_TARGET * frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
@@ -524,6 +527,7 @@ static void patch_add_pieces(const patch_frame *whole, const lrcs_brdf *brdf, lr
         }
         index++;
     } while (level > 0);
+    return all_slants;
 }
 
 /* The mean over the patch that patch->at identifies. Returns 0 if its remainder is too large. */
@@ -534,7 +538,7 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     if (!frame_make(view, facet, patches, &f, patch)) {
         return 0;
     }
-    patch_add_pieces(&f, brdf, patch);
+    const int all_slants = patch_add_pieces(&f, brdf, patch);
     double area_err = f.fourth ? PATCH_AREA_ERR / (fabs(f.cosine) - f.step) : PATCH_AREA_ERR;
     patch->rounding += area_err * (patch->glint + patch->diffuse);
     patch->glint *= f.area;
@@ -543,8 +547,9 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->diffuse_log *= f.area;
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
+    const double most = all_slants ? REMAINDER_MAX : EDGE_ON_MAX;
     return patch->remainder <=
-           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patches->negligible);
+           lrcsi_max(most * (patch->glint + patch->diffuse), patches->negligible);
 }
 
 static int same_brdf(const lrcs_brdf *a, const lrcs_brdf *b)

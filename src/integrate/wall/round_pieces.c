@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Integrates over visible pieces, and over margins at the borders of sets of sectors. It uses the
-   sectors that have a partly visible facet, if the same side of the surface above their facets
-   faces the laser everywhere, and G is smooth enough for the rules there. */
+   sectors that have a partly visible facet, and neighbours of these where that reduces errors, if
+   the same side of the surface above their facets faces the laser everywhere, and G is smooth
+   enough for the rules there. An arc beyond the limb is not used: there the surface that faces the
+   laser is farther than MAX_REACHES from the facet, or G is not bounded above its margin. */
 #include "integrate/wall/round_pieces.h"
 
 #include <math.h>
@@ -202,7 +204,9 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
    linear interpolation over the corners, and its tangent plane at the centre. So its distance from
    the facet is at most the largest distance of either from the facet's corners. The normals above a
    facet turn from its own by at most `turn` on its own patch. On a patch next to it they turn by at
-   most 2 `turn` from those on the common border, so by 3 `turn` from its own. */
+   most 2 `turn` from those on the common border, so by 3 `turn` from its own. No other patch is
+   above the facet: on fine meshes because it would be farther than MAX_REACHES away, on coarse ones
+   because the margins between, which must be known, are no wider than a facet. */
 static double facet_bound(const pieces_job *job, uint32_t facet)
 {
     const lrcs_prepared *p = job->view->prepared;

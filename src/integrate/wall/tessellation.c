@@ -8,8 +8,9 @@
    agree except on a fraction g of both where v is 1 and w is 0 (gain), and on a fraction l where v
    is 0 and w is 1 (loss). The true value is T = Int_U F v, and that of the facet M = F_i Int_f w,
    where F_i is F at the facet's normal or, if that is known, its mean over the patch
-   (lrcsi_patch_deviation). Upper and lower bounds of T - M follow; the sums of each over all facets
-   bound the error of sigma.
+   (lrcsi_patch_deviation). F is 0 where the patch faces away from the laser. The computed mean is
+   at most (1 + a) sup F whatever its remainder, since the weights of its rules are positive. Upper
+   and lower bounds of T - M follow; the sums of each over all facets bound the error of sigma.
    - The facet is visible everywhere, and g = l = 0: |T - M| is at most the deviation of the whole
      patch. This deviation holds for the two facets of a sector together, so both must be visible.
    - It is hidden except for a fraction h: 0 <= M <= S h F_i and 0 <= T <= (1 + a) S (g + h) sup F.
