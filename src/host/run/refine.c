@@ -17,9 +17,8 @@
 
 #include "mesh/shape/revolution.h"
 
-/* Heuristics: the error due to a part falls by these factors with every halving, see choices_start.
-   If it falls less, the part is halved again; if it falls more, there are more facets than needed.
-   */
+/* Heuristics: the error due to a part falls by these factors with every halving (choices_start). If
+   it falls less, the part is halved again; if it falls more, there are more facets than needed. */
 #define ROUND_FACTOR    0.36
 #define STRAIGHT_FACTOR 0.48
 /* Divisions are chosen for this fraction of what the tolerance leaves for all parts together. */
@@ -115,15 +114,15 @@ void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
 
 /* What the tolerance leaves for the tessellation of a pose; 0: dividing shapes does not help, or is
    not needed. */
-static double error_allowed(const lrcs_run_options *options, const lrcs_result *result)
+static double error_left(const lrcs_run_options *options, const lrcs_result *result)
 {
     double visibility = options->accept == LRCS_ACCEPT_BOUND || result->estimate_m2 < 0.0
                             ? result->budget.visibility_m2
                             : fmin(result->estimate_m2, result->budget.visibility_m2);
-    double left = TOLERANCE_FRACTION * (fmax(options->tolerance, TOLERANCE_MIN) * result->sigma_m2 -
-                                        visibility - result->budget.rounding_m2);
+    double left = fmax(options->tolerance, TOLERANCE_MIN) * result->sigma_m2 - visibility -
+                  result->budget.rounding_m2;
     return (result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) && left > 0.0 &&
-                   result->budget.tessellation_m2 > left
+                   result->budget.tessellation_m2 > TOLERANCE_FRACTION * left
                ? left
                : 0.0;
 }
@@ -244,7 +243,8 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
                            const double *part_error_m2, const unsigned char *from,
                            unsigned char *halvings)
 {
-    double allowed = error_allowed(options, result);
+    double left = error_left(options, result);
+    double allowed = TOLERANCE_FRACTION * left;
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
     int reachable = 1;
@@ -253,7 +253,7 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
     if (choice && allowed > 0.0) {
         choices_start(scene, result, part_error_m2, choice);
         for (uint32_t i = 0; i < levels->parts; i++) {
-            reachable &= choice[i].error <= allowed / TOLERANCE_FRACTION ||
+            reachable &= choice[i].error <= left ||
                          part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
         }
         double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);

@@ -415,11 +415,21 @@ static int piece_is_slanting(const patch_frame *f, double shift)
     return shift < 0.25 * f->c;
 }
 
-/* The weight of an element of area in the middle of a piece. */
-static double frame_weight(const patch_frame *f)
+/* F at tan^2 = u, with the weights in the middle of a piece. */
+static double frame_integrand(const patch_frame *f, const lrcs_brdf *brdf, double u)
 {
+    const lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
     const double cosine2 = f->cosine * f->cosine;
-    return f->step > 0 ? f->sine / (f->fourth ? cosine2 * cosine2 : 1) : 1;
+    const double weight = f->step > 0 ? f->sine / (f->fourth ? cosine2 * cosine2 : 1) : 1;
+    return weight * f->nu * (at.glint + at.diffuse);
+}
+
+/* What counts as a small remainder on a patch that may be edge-on in part: relative to F at the
+   largest cosine. */
+static double edge_on_target(const patch_frame *f, const lrcs_brdf *brdf, double shift)
+{
+    const double most = lrcsi_min(f->c + shift, f->nu) / f->nu; /* cosine */
+    return EDGE_ON_TARGET * frame_integrand(f, brdf, 1 / (most * most) - 1);
 }
 
 /* An upper bound of F, with the weights, on a piece whose normals differ by at most `shift` from
@@ -454,33 +464,30 @@ static double piece_rules(const patch_frame *f, const lrcs_brdf *brdf, double ta
     return along_error + around_error;
 }
 
-/* Adds the mean over a piece, times `fraction`, which may have been halved `level` times. Returns
-   0, and adds nothing, if it is to be halved again:
+/* Adds the mean over a piece, times `fraction`, which may have been halved `level` times, and whose
+   normals differ by at most `shift`. Returns 0, and adds nothing, if it is to be halved again:
    1. where all of it faces away, F is 0;
    2. where F is negligible because it is nearly edge-on, F is an error;
    3. elsewhere by rules, if their remainder is small, or the piece is not halved any further;
    4. otherwise F is an error. */
-static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double target,
+static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double shift, double target,
                            double fraction, int level, lrcsi_patch *patch)
 {
-    const double shift = normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
     if (f->c + shift <= 0) { /* 1 */
         return 1;
     }
-    const double bound = shift < NEARLY_EDGE_ON * f->c ? HUGE_VAL : edge_on_bound(f, brdf, shift);
+    const int is_nearly_edge_on = !(shift < NEARLY_EDGE_ON * f->c);
+    const double bound = is_nearly_edge_on ? edge_on_bound(f, brdf, shift) : HUGE_VAL;
     if (bound <= lrcsi_max(f->negligible, target)) { /* 2 */
         patch->remainder += fraction * bound;
         return 1;
     }
-    const int is_smallest =
-        level >= (shift < NEARLY_EDGE_ON * f->c ? LEVELS_MAX : EDGE_ON_LEVELS_MAX);
+    const int is_smallest = level >= (is_nearly_edge_on ? EDGE_ON_LEVELS_MAX : LEVELS_MAX);
     if (piece_is_slanting(f, shift)) { /* 3 */
         const lrcsi_mean_rule *rule[2];
         const lrcsi_patch before = *patch;
-        const lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
-        const double middle = frame_weight(f) * f->nu * (at.glint + at.diffuse);
-        const double small =
-            lrcsi_max(lrcsi_max(REMAINDER_TARGET * middle, target), 0.5 * f->negligible);
+        const double middle = REMAINDER_TARGET * frame_integrand(f, brdf, f->u);
+        const double small = lrcsi_max(lrcsi_max(middle, target), 0.5 * f->negligible);
         const double remainder = piece_rules(f, brdf, small, rule);
         if ((remainder <= 4 * small || (is_smallest && remainder < bound)) &&
             patch_add_points(f, brdf, rule[0], rule[1], fraction, patch)) {
@@ -501,22 +508,21 @@ static int patch_add_pieces(const patch_frame *whole, const lrcs_brdf *brdf, lrc
 {
     const int bits = whole->step > 0 ? 2 : 1;
     const uint32_t last = (UINT32_C(1) << bits) - 1;
-    const double shift =
-        normal_shift(whole, whole->step, lrcsi_exp(whole->step), lrcsi_exp(whole->half));
-    const int all_slants = piece_is_slanting(whole, shift);
+    int all_slants = 1;
     double target = 0;
-    if (!all_slants) {
-        const double most = lrcsi_min(whole->c + shift, whole->nu) / whole->nu; /* cosine */
-        const lrcsi_reflection at = lrcsi_reflect(brdf, 1 / (most * most) - 1, 0);
-        target = EDGE_ON_TARGET * frame_weight(whole) * whole->nu * (at.glint + at.diffuse);
-    }
     int level = 0;
     uint32_t index = 0;
     patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
     patch->remainder = patch->rounding = 0;
     do {
         const patch_frame piece = frame_piece(whole, level, index);
-        if (!patch_piece_add(&piece, brdf, target, ldexp(1, -bits * level), level, patch)) {
+        const double shift =
+            normal_shift(&piece, piece.step, lrcsi_exp(piece.step), lrcsi_exp(piece.half));
+        if (level == 0 && !piece_is_slanting(&piece, shift)) { /* the whole patch */
+            all_slants = 0;
+            target = edge_on_target(&piece, brdf, shift);
+        }
+        if (!patch_piece_add(&piece, brdf, shift, target, ldexp(1, -bits * level), level, patch)) {
             level++;
             index <<= bits;
             continue;

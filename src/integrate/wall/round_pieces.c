@@ -319,6 +319,21 @@ static int facet_is_eligible(const pieces_job *job, uint32_t facet)
            lrcsi_patch_exists(job->view->prepared, facet);
 }
 
+/* Does a facet belong to the set, on this side of the wall? It may be LRCS_NONE. */
+static int is_in_set(const pieces_job *job, const lrcsi_round_terms *terms, uint32_t facet)
+{
+    return facet != LRCS_NONE && terms[facet].known && is_on_side(job, facet);
+}
+
+/* Makes the sector of a facet. Returns 0 unless it is in the set, and the facet its first one: so
+   the facets of a part name each sector of the set once. */
+static int sector_of_set(const pieces_job *job, const lrcsi_round_terms *terms, uint32_t facet,
+                         lrcsi_round_sector *sector)
+{
+    return is_in_set(job, terms, facet) && lrcsi_round_sector_make(&job->wall, facet, sector) &&
+           sector->facet[0] == facet;
+}
+
 /* May all facets of a sector be used, apart from what the integrals need? */
 static int sector_is_eligible(const pieces_job *job, const lrcsi_round_sector *sector)
 {
@@ -369,8 +384,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
         lrcsi_round_margin margin;
-        if (side->neighbour != LRCS_NONE && terms[side->neighbour].known &&
-            is_on_side(job, side->neighbour)) {
+        if (is_in_set(job, terms, side->neighbour)) {
             continue;
         }
         int state = side_state(job, o, side);
@@ -397,11 +411,12 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
     return known;
 }
 
-/* Integrates over the pieces of a sector, unless its integrals or margins are not known. */
+/* Integrates over the pieces of a sector that is eligible and has margins. It joins the set if all
+   integrals are known. */
 static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
                              const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
 {
-    int known = sector_is_eligible(job, sector) && sector_has_margins(job, sector);
+    int known = 1;
     for (int i = 0; i < sector->facets && known; i++) {
         known = facet_integrate(job, o, sector->facet[i], &terms[sector->facet[i]]);
     }
@@ -411,21 +426,19 @@ static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
 }
 
 /* By how much the set's errors from margins fall if a sector joins it: by those of the sides to
-   sectors of the set, less those of its other sides. */
+   sectors of the set, less those of its other sides. 0 if it has no margins. */
 static double joining_gain(const pieces_job *job, const lrcsi_occlusion *o,
                            const lrcsi_round_sector *sector, const lrcsi_round_terms *terms)
 {
     double gain = 0;
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
-        const int inside = side->neighbour != LRCS_NONE && terms[side->neighbour].known &&
-                           is_on_side(job, side->neighbour);
         lrcsi_round_margin margin;
         if (!lrcsi_round_margin_bounds(&job->wall, side, &margin)) {
             return 0;
         }
         if (side_state(job, o, side) < 0) {
-            gain += inside ? margin.largest : -margin.largest;
+            gain += is_in_set(job, terms, side->neighbour) ? margin.largest : -margin.largest;
         }
     }
     return gain;
@@ -443,7 +456,7 @@ static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
         if (neighbour != LRCS_NONE && !terms[neighbour].known && is_on_side(job, neighbour) &&
             side_state(job, o, &sector->side[i]) < 0 &&
             lrcsi_round_sector_make(&job->wall, neighbour, &next) &&
-            joining_gain(job, o, &next, terms) > 0) {
+            sector_is_eligible(job, &next) && joining_gain(job, o, &next, terms) > 0) {
             sector_integrate(job, o, &next, terms);
             any |= terms[neighbour].known;
         }
@@ -467,7 +480,8 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     for (uint32_t f = part->first_facet; f < end; f++) { /* 1 */
         if (!facet_is_eligible(job, f) || !facet_is_uncertain(job, f) ||
             !lrcsi_round_sector_make(&job->wall, f, &sector) ||
-            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0]))) { /* tried before */
+            (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried before */
+            !sector_is_eligible(job, &sector) || !sector_has_margins(job, &sector)) {
             continue;
         }
         if (!*o && lrcsi_occlude_make(job->classification, job->meter, work, o) != LRCS_OK) {
@@ -480,8 +494,7 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     for (int round = 0; round < JOIN_ROUNDS && joined; round++) { /* 2 */
         joined = 0;
         for (uint32_t f = part->first_facet; f < end; f++) {
-            if (terms[f].known && is_on_side(job, f) &&
-                lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
+            if (sector_of_set(job, terms, f, &sector)) {
                 joined |= sector_add_neighbours(job, *o, &sector, terms);
             }
         }
@@ -493,8 +506,7 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
         }
     }
     for (uint32_t f = part->first_facet; f < end && any; f++) { /* 4 */
-        if (terms[f].known && is_on_side(job, f) &&
-            lrcsi_round_sector_make(&job->wall, f, &sector) && sector.facet[0] == f) {
+        if (sector_of_set(job, terms, f, &sector)) {
             sector_add_margins(job, *o, &sector, terms);
         }
     }
