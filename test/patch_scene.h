@@ -48,4 +48,15 @@ static inline void patch_scene_make(const lrcs_shape *shape, double division, co
     s->plan = lrcsi_plan_make(&s->view, &clear, &run);
 }
 
+/* F at a cosine of the incidence angle, written down independently; it is 0 where the surface faces away. */
+static inline double patch_reflect_at(const lrcs_brdf *brdf, double c)
+{
+    double u = 1 / (c * c) - 1;
+    if (!(c > 0)) {
+        return 0;
+    }
+    return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
+           brdf->B * pow(c, brdf->m + 2);
+}
+
 #endif

@@ -64,6 +64,14 @@ static void sweep_run(const lrcs_host_scene *scene, double tolerance, uint64_t f
     assert_int_equal(lrcs_host_sweep_run(scene, &options, &sweep, NULL, &error), LRCS_OK);
 }
 
+/* Two answers are the same in every bit, on as many facets. */
+static void check_same_answer(const lrcs_result *a, const lrcs_result *b)
+{
+    assert_memory_equal(&a->sigma_m2, &b->sigma_m2, sizeof(double));
+    assert_memory_equal(&a->bound_m2, &b->bound_m2, sizeof(double));
+    assert_int_equal(a->facets_total, b->facets_total);
+}
+
 static void every_pose_meets_its_tolerance_and_all_of_them_agree(void **state)
 {
     (void)state;
@@ -105,9 +113,7 @@ static void order_and_threads_change_nothing(void **state)
             sweep_run(&scene, 1e-5, 0, POSES, way == 0 ? 1 : 3, way == 0 ? all : other);
         }
         for (int i = 0; way > 0 && i < (int)POSES; i++) {
-            assert_memory_equal(&all[i].sigma_m2, &other[i].sigma_m2, sizeof(double));
-            assert_memory_equal(&all[i].bound_m2, &other[i].bound_m2, sizeof(double));
-            assert_int_equal(all[i].facets_total, other[i].facets_total);
+            check_same_answer(&all[i], &other[i]);
         }
         lrcs_host_scene_free(&scene);
     }
@@ -127,9 +133,7 @@ static void a_pose_does_not_depend_on_poses_before_it(void **state)
         scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
         sweep_run(&scene, 1e-6, i, 1, 1, alone);
         lrcs_host_scene_free(&scene);
-        assert_memory_equal(&all[i].sigma_m2, &alone[i].sigma_m2, sizeof(double));
-        assert_memory_equal(&all[i].bound_m2, &alone[i].bound_m2, sizeof(double));
-        assert_int_equal(all[i].facets_total, alone[i].facets_total);
+        check_same_answer(&all[i], &alone[i]);
     }
 }
 
@@ -247,20 +251,30 @@ static void a_scene_becomes_the_one_that_meets_the_tolerance(void **state)
     check_becomes("test/host/refine_unbound.toml", 1);
 }
 
+/* Refines the scene of three parts (a cylinder, its mast, a dome) for a tolerance of 1e-6 from one
+   direction. max_facets: of one shape, or 0. Returned: how often. */
+static int refine_parts(double az, double el, uint32_t max_facets, lrcs_host_scene *scene,
+                        lrcs_result *result, lrcs_build_options *build)
+{
+    lrcs_pose pose;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-6;
+    *build = lrcs_build_options_default();
+    assert_int_equal(lrcs_pose_from_azel(az, el, &pose), LRCS_OK);
+    scene_make_limited(scene, "test/host/refine_parts.toml",
+                       max_facets ? max_facets : build->max_facets);
+    return refine(scene, &pose, &options, 1, result, build);
+}
+
 /* Parts whose facets add nothing to the bound keep their facets. A mast hides some of a cylinder; a
    dome far away from both is seen as a whole. */
 static void only_the_parts_that_the_error_is_due_to_are_divided(void **state)
 {
     (void)state;
     lrcs_host_scene scene;
-    lrcs_pose pose;
     lrcs_result result;
-    lrcs_build_options build = lrcs_build_options_default();
-    lrcs_run_options options = lrcs_run_options_default();
-    options.tolerance = 1e-6;
-    assert_int_equal(lrcs_pose_from_azel(0, 20, &pose), LRCS_OK);
-    scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
-    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    lrcs_build_options build;
+    assert_true(refine_parts(0, 20, 0, &scene, &result, &build) > 0);
     assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     assert_true(build.halvings[0] > 0); /* the cylinder */
     assert_int_equal(build.halvings[1], 0);
@@ -278,17 +292,12 @@ static void one_refinement_meets_the_tolerance_without_excess(void **state)
     static const double azel[2][2] = {{0.0, 20.0}, {-90.0, 10.0}};
     for (int i = 0; i < 2; i++) {
         lrcs_host_scene scene;
-        lrcs_pose pose;
         lrcs_result result;
-        lrcs_build_options build = lrcs_build_options_default();
-        lrcs_run_options options = lrcs_run_options_default();
-        options.tolerance = 1e-6;
-        assert_int_equal(lrcs_pose_from_azel(azel[i][0], azel[i][1], &pose), LRCS_OK);
-        scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
-        assert_int_equal(refine(&scene, &pose, &options, 1, &result, &build), 1);
+        lrcs_build_options build;
+        assert_int_equal(refine_parts(azel[i][0], azel[i][1], 0, &scene, &result, &build), 1);
         assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
         assert_true(build.halvings[i == 0 ? 0 : 2] > 0);
-        check_most(0.25 * options.tolerance * result.sigma_m2, result.bound_m2);
+        check_most(0.25 * 1e-6 * result.sigma_m2, result.bound_m2);
         lrcs_host_scene_free(&scene);
     }
 }
@@ -299,19 +308,16 @@ static void a_round_body_is_divided_up_to_the_limit_of_facets(void **state)
 {
     (void)state;
     lrcs_host_scene scene;
-    lrcs_pose pose;
     lrcs_result result;
-    lrcs_build_options build = lrcs_build_options_default();
-    lrcs_run_options options = lrcs_run_options_default();
-    options.tolerance = 1e-6;
-    assert_int_equal(lrcs_pose_from_azel(-90, 10, &pose), LRCS_OK);
+    lrcs_build_options build;
     scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
     uint32_t coarse = scene.scene.part[2].facet_count; /* the dome */
     lrcs_host_scene_free(&scene);
     uint32_t most = 5 * coarse / 3;
     scene_make_limited(&scene, "test/host/refine_parts.toml", most);
     assert_int_equal(scene.scene.part[2].facet_count, coarse);
-    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    lrcs_host_scene_free(&scene);
+    assert_true(refine_parts(-90, 10, most, &scene, &result, &build) > 0);
     assert_int_equal(build.halvings[2], 1);
     assert_true(scene.scene.part[2].facet_count > 4 * coarse / 3);
     assert_true(scene.scene.part[2].facet_count <= most);

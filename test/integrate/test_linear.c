@@ -111,17 +111,6 @@ static void to_view(const patch_scene *s, const double v[3], double scale, doubl
     }
 }
 
-/* F, which is 0 where the surface faces away. */
-static double reflect_at(const lrcs_brdf *brdf, double c)
-{
-    double u = 1 / (c * c) - 1;
-    if (!(c > 0)) {
-        return 0;
-    }
-    return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
-           brdf->B * pow(c, brdf->m + 2);
-}
-
 static unsigned patches;
 static unsigned beyond;
 static double closest_point;
@@ -170,7 +159,7 @@ static void patch_check(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi
         double azimuth = phi + v * at->h;
         const double n[3] = {out * cos(azimuth), out * sin(azimuth), side * up};
         to_view(s, n, s->place.scale[0] < 0 ? -1 : 1, view);
-        double f = reflect_at(brdf, patch->side * view[2]);
+        double f = patch_reflect_at(brdf, patch->side * view[2]);
         double ours = sqrt(at->upper * at->upper +
                            fraction * (at->lower * at->lower - at->upper * at->upper));
         double down =

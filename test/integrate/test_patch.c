@@ -26,17 +26,6 @@ static double division = 2e-2; /* the tolerance that shapes are divided for */
 
 /* --- the reference ---------------------------------------------------------------------------- */
 
-/* F, which is 0 where the surface faces away. */
-static double reflect_at(const lrcs_brdf *brdf, double c)
-{
-    double u = 1 / (c * c) - 1;
-    if (!(c > 0)) {
-        return 0;
-    }
-    return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
-           brdf->B * pow(c, brdf->m + 2);
-}
-
 /* F times the area element, and the cosine of the incidence angle, at azimuth phi, where the
    parameter t goes from 0 at the lower row of the patch to 1 at the upper one. The shape is scaled
    along its axes and then rotated: normals are divided by the scales, and areas multiplied by their
@@ -84,7 +73,8 @@ static double element_at(const patch_scene *s, const lrcs_brdf *brdf, const lrcs
         c += s->view.unit[i] * (row[0] * n[0] + row[1] * n[1] + row[2] * n[2]);
     }
     *cosine = patch->side * c / length;
-    return reflect_at(brdf, *cosine) * element * length * fabs(scale[0] * scale[1] * scale[2]);
+    return patch_reflect_at(brdf, *cosine) * element * length *
+           fabs(scale[0] * scale[1] * scale[2]);
 }
 
 /* A part of a patch: t and azimuth in its middle, and half its widths. */
