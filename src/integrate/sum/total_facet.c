@@ -173,7 +173,11 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
         const lrcsi_flat_face *face =
             &run->areas->face[run->view->prepared->scene->facet_part[facet]];
         set |= face->facet == facet ? face->causes : 0;
-        own = (lrcsi_face_margin_sides(run->view, facet) & ~(unsigned)band->free_sides[facet]) != 0;
+        const unsigned sides = lrcsi_face_margin_sides(run->view, facet);
+        own = 0;
+        for (int k = 0; k < 3; k++) {
+            own |= ((sides >> k) & 1) != 0 && !lrcsi_band_side_is_free(band, facet, k);
+        }
     }
     divide_error(run, facet, error, set, own);
 }

@@ -345,10 +345,19 @@ static int sector_is_eligible(const pieces_job *job, const lrcsi_round_sector *s
     return 1;
 }
 
-/* What is visible beside a side of a sector: 1 everything, 0 nothing, -1 not known. For a uniform
-   facet that is known. For any other facet a query decides, at a point so close to the middle of
-   the side that what holds for the side holds for the point. */
-static int side_state(const pieces_job *job, const lrcsi_occlusion *o, const lrcsi_round_side *side)
+/* A part of a side of a sector, and what is visible beside it: 1 everything, 0 nothing, -1 not
+   known. */
+typedef struct side_part {
+    lrcsi_round_range range;
+    int state;
+} side_part;
+enum { SIDE_PARTS = 3 };
+
+/* What is visible beside a free part of a side. For a uniform facet that is known. For any other
+   facet a query decides, at a point so close to the middle of the part that what holds for the part
+   holds for the point. from, to: as fractions of the way from the facet's corner k to k + 1. */
+static int free_part_state(const pieces_job *job, const lrcsi_occlusion *o,
+                           const lrcsi_round_side *side, double from, double to)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t f = side->facet;
@@ -356,21 +365,41 @@ static int side_state(const pieces_job *job, const lrcsi_occlusion *o, const lrc
     const double *a = lrcsi_prepared_corner(p, f, k);
     const double *b = lrcsi_prepared_corner(p, f, (k + 1) % 3);
     const double *c = lrcsi_prepared_corner(p, f, (k + 2) % 3);
-    const double from =
+    const double inward =
         lrcsi_min(0.25, p->proximity.reach[job->wall.part] / lrcsi_length_longest_side(a, b, c));
     double point[3];
-    if (!((job->band->whole->free_sides[f] >> k) & 1)) {
-        return -1;
-    }
     for (int i = 0; i < 3; i++) {
-        double middle = 0.5 * (a[i] + b[i]);
-        point[i] = middle + from * (c[i] - middle);
+        double middle = a[i] + 0.5 * (from + to) * (b[i] - a[i]);
+        point[i] = middle + inward * (c[i] - middle);
     }
     int answer = o->answer[f];
     if (job->classification->undecided[f]) {
         answer = lrcsi_query_point(&o->facets, f, point, job->meter);
     }
     return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : -1;
+}
+
+/* Divides a side into the part near which event edges may pass, where it is not known what is
+   visible, and the free parts before and after it. Returns how many there are. */
+static int side_divide(const pieces_job *job, const lrcsi_occlusion *o,
+                       const lrcsi_round_side *side, side_part part[SIDE_PARTS])
+{
+    const lrcs_scene *scene = job->view->prepared->scene;
+    const lrcsi_segment_part near = job->band->whole->sides[side->facet].side[side->corner];
+    const int is_free = lrcsi_segment_part_is_empty(near);
+    const double limit[SIDE_PARTS + 1] = {0, is_free ? 1 : near.from, is_free ? 1 : near.to, 1};
+    const double sign = side->vertex[0] == scene->facet[side->facet].corner[side->corner] ? 1 : -1;
+    int count = 0;
+    for (int i = 0; i < SIDE_PARTS; i++) {
+        if (limit[i] < limit[i + 1]) {
+            const double from = sign * (2 * limit[i] - 1);
+            const double to = sign * (2 * limit[i + 1] - 1);
+            part[count++] =
+                (side_part){{lrcsi_min(from, to), lrcsi_max(from, to)},
+                            i == 1 ? -1 : free_part_state(job, o, side, limit[i], limit[i + 1])};
+        }
+    }
+    return count;
 }
 
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
@@ -383,19 +412,21 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
         job->visible[sector->facet[0]].high > 0 ? sector->facet[0] : sector->facet[1];
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
-        lrcsi_round_margin margin;
-        if (is_in_set(job, terms, side->neighbour)) {
-            continue;
-        }
-        int state = side_state(job, o, side);
-        if (state == 0) {
-            continue;
-        }
-        const int known = lrcsi_round_margin_make(&job->wall, side, &margin);
-        if (known && state > 0 && margin.width <= 2 * reach && job->visible[to].high > 0) {
-            lrcsi_round_margin_add(&margin, 1, &terms[to]);
-        } else {
-            terms[to].own += margin.largest;
+        side_part part[SIDE_PARTS];
+        const int parts =
+            is_in_set(job, terms, side->neighbour) ? 0 : side_divide(job, o, side, part);
+        for (int k = 0; k < parts; k++) {
+            lrcsi_round_margin margin;
+            if (part[k].state == 0) {
+                continue;
+            }
+            const int known = lrcsi_round_margin_make(&job->wall, side, part[k].range, &margin);
+            if (known && part[k].state > 0 && margin.width <= 2 * reach &&
+                job->visible[to].high > 0) {
+                lrcsi_round_margin_add(&margin, 1, &terms[to]);
+            } else {
+                terms[to].own += margin.largest;
+            }
         }
     }
 }
@@ -406,7 +437,8 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
     int known = 1;
     for (int i = 0; i < sector->sides && known; i++) {
         lrcsi_round_margin margin;
-        known = lrcsi_round_margin_bounds(&job->wall, &sector->side[i], &margin);
+        known = lrcsi_round_margin_bounds(&job->wall, &sector->side[i], lrcsi_round_whole_side,
+                                          &margin);
     }
     return known;
 }
@@ -425,21 +457,35 @@ static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
     }
 }
 
+/* A bound on the integral over the parts of a side's margin where it is not known what is visible;
+   infinite if a bound is not known. */
+static double unknown_margin(const pieces_job *job, const lrcsi_occlusion *o,
+                             const lrcsi_round_side *side)
+{
+    side_part part[SIDE_PARTS];
+    const int parts = side_divide(job, o, side, part);
+    double sum = 0;
+    for (int k = 0; k < parts; k++) {
+        lrcsi_round_margin margin;
+        if (part[k].state < 0) {
+            sum += lrcsi_round_margin_bounds(&job->wall, side, part[k].range, &margin)
+                       ? margin.largest
+                       : HUGE_VAL;
+        }
+    }
+    return sum;
+}
+
 /* By how much the set's errors from margins fall if a sector joins it: by those of the sides to
-   sectors of the set, less those of its other sides. 0 if it has no margins. */
+   sectors of the set, less those of its other sides. */
 static double joining_gain(const pieces_job *job, const lrcsi_occlusion *o,
                            const lrcsi_round_sector *sector, const lrcsi_round_terms *terms)
 {
     double gain = 0;
     for (int i = 0; i < sector->sides; i++) {
         const lrcsi_round_side *side = &sector->side[i];
-        lrcsi_round_margin margin;
-        if (!lrcsi_round_margin_bounds(&job->wall, side, &margin)) {
-            return 0;
-        }
-        if (side_state(job, o, side) < 0) {
-            gain += is_in_set(job, terms, side->neighbour) ? margin.largest : -margin.largest;
-        }
+        const double error = unknown_margin(job, o, side);
+        gain += is_in_set(job, terms, side->neighbour) ? error : -error;
     }
     return gain;
 }
@@ -454,9 +500,10 @@ static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
         const uint32_t neighbour = sector->side[i].neighbour;
         lrcsi_round_sector next;
         if (neighbour != LRCS_NONE && !terms[neighbour].known && is_on_side(job, neighbour) &&
-            side_state(job, o, &sector->side[i]) < 0 &&
+            unknown_margin(job, o, &sector->side[i]) > 0 &&
             lrcsi_round_sector_make(&job->wall, neighbour, &next) &&
-            sector_is_eligible(job, &next) && joining_gain(job, o, &next, terms) > 0) {
+            sector_is_eligible(job, &next) && sector_has_margins(job, &next) &&
+            joining_gain(job, o, &next, terms) > 0) {
             sector_integrate(job, o, &next, terms);
             any |= terms[neighbour].known;
         }

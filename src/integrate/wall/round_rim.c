@@ -134,8 +134,8 @@ static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round
         return;
     }
     lrcsi_round_terms *to = &terms[side->facet];
-    if (lrcsi_round_margin_make(job->wall, at, &margin) && !away && side->is_certain &&
-        side->is_summed && side->is_visible) {
+    if (lrcsi_round_margin_make(job->wall, at, lrcsi_round_whole_side, &margin) && !away &&
+        side->is_certain && side->is_summed && side->is_visible) {
         lrcsi_round_margin_add(&margin, -1, to);
     } else {
         to->own += side->bound * margin.area * LRCSI_OUTWARD_NANO;
@@ -175,7 +175,7 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
         uint32_t number;
         if (rim_sector(&job, f, &sector, &number)) {
             lrcsi_round_margin margin;
-            lrcsi_round_margin_extent(inside, &sector.side[0], &margin);
+            lrcsi_round_margin_extent(inside, &sector.side[0], lrcsi_round_whole_side, &margin);
             known = margin.width <= 2 * p->proximity.reach[inside->part];
             job.side[number] =
                 (rim_side){.at = sector.side[0], .facet = LRCS_NONE, .is_certain = 1};

@@ -23,6 +23,7 @@
 /* The least cosine of the incidence angle in the middle of a piece. */
 #define MIN_COSINE 0.07
 
+const lrcsi_round_range lrcsi_round_whole_side = {-1, 1};
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
 
 lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan *plan,
@@ -233,9 +234,10 @@ static double margin_position_err(const lrcsi_round_wall *wall, const lrcsi_roun
 }
 
 void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                               lrcsi_round_margin *margin)
+                               lrcsi_round_range range, lrcsi_round_margin *margin)
 {
-    const margin_piece all = margin_piece_make(wall, side, 0, 1);
+    const margin_piece all =
+        margin_piece_make(wall, side, 0.5 * (range.from + range.to), 0.5 * (range.to - range.from));
     double slope;
     *margin = (lrcsi_round_margin){.largest = 0};
     margin_bend(wall, side, &all, 1, &margin->width, &slope);
@@ -245,10 +247,11 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
 
 /* A piece of a margin that is divided evenly, with its centre. Returns 0 if that is not known, or
    steep. */
-static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_side *side, int index,
-                              int pieces, margin_piece *piece)
+static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                              lrcsi_round_range range, int index, int pieces, margin_piece *piece)
 {
-    *piece = margin_piece_make(wall, side, (2.0 * index + 1 - pieces) / pieces, 1.0 / pieces);
+    const double half = 0.5 * (range.to - range.from) / pieces;
+    *piece = margin_piece_make(wall, side, range.from + (2.0 * index + 1) * half, half);
     return lrcsi_round_point_make(&wall->surface, piece->chord, &piece->centre) &&
            piece->centre.s >= MIN_COSINE * piece->centre.length;
 }
@@ -259,18 +262,18 @@ static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_si
    value at the centre (integrate/wall/round_surface.h): with a cosine of 0.07 or more there,
    w < 307 and tan < 17.5. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                              lrcsi_round_margin *margin)
+                              lrcsi_round_range range, lrcsi_round_margin *margin)
 {
     const double position_err = margin_position_err(wall, side);
     for (int n = 1; n <= MARGIN_PIECES_MAX; n *= 2) {
         lrcsi_round_sum *sum = &margin->sum;
-        lrcsi_round_margin_extent(wall, side, margin);
+        lrcsi_round_margin_extent(wall, side, range, margin);
         margin->pieces = n;
         for (int i = 0; i < n && sum->remainder < HUGE_VAL; i++) {
             double width = 0;
             double slope = 0;
             margin_piece piece;
-            if (!margin_piece_place(wall, side, i, n, &piece)) {
+            if (!margin_piece_place(wall, side, range, i, n, &piece)) {
                 return 0;
             }
             double bound = margin_bound(wall, side, &piece, 1, 1, &width, &slope);
@@ -289,12 +292,12 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
 }
 
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                            lrcsi_round_margin *margin)
+                            lrcsi_round_range range, lrcsi_round_margin *margin)
 {
-    const int known = lrcsi_round_margin_bounds(wall, side, margin);
+    const int known = lrcsi_round_margin_bounds(wall, side, range, margin);
     for (int i = 0; i < margin->pieces && known; i++) {
         margin_piece piece;
-        (void)margin_piece_place(wall, side, i, margin->pieces, &piece); /* as above */
+        (void)margin_piece_place(wall, side, range, i, margin->pieces, &piece); /* as above */
         margin_add(wall, side, &piece, &MARGIN_RULE_ALONG, &MARGIN_RULE_ACROSS, &margin->sum);
     }
     return known && isfinite(margin->sum.rounding + margin->sum.glint + margin->sum.diffuse);

@@ -66,7 +66,7 @@ typedef struct lrcsi_round_sector {
 int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
                             lrcsi_round_sector *sector);
 
-/* A margin: the integral of G over it, positive where the arc is outside the sector; a bound on the
+/* A margin, or a part of it: the integral of G over it, positive where the arc is outside the sector; a bound on the
    size of that integral over any part of it; and bounds on its width and area. */
 typedef struct lrcsi_round_margin {
     lrcsi_round_sum sum;
@@ -74,19 +74,25 @@ typedef struct lrcsi_round_margin {
     int pieces; /* in how many pieces it is integrated */
 } lrcsi_round_margin;
 
+/* A part of a side's margin: where the parameter t is in these limits. */
+typedef struct lrcsi_round_range {
+    double from, to;
+} lrcsi_round_range;
+extern const lrcsi_round_range lrcsi_round_whole_side; /* -1 .. 1 */
+
 /* Its width and area. */
 void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                               lrcsi_round_margin *margin);
+                               lrcsi_round_range range, lrcsi_round_margin *margin);
 
 /* Makes a margin, except for the integral itself. Returns 0 if only width and area are known, or if
    the tangent of the true surface's inclination to the view plane may exceed 17.5 above it. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                              lrcsi_round_margin *margin);
+                              lrcsi_round_range range, lrcsi_round_margin *margin);
 
 /* Makes a margin. Returns 0 if its bounds are not known, or if only its integral is not, because of
    rounding: the bounds hold then. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                            lrcsi_round_margin *margin);
+                            lrcsi_round_range range, lrcsi_round_margin *margin);
 
 /* Adds the integral over a margin to what a facet adds, or subtracts it (sign -1). */
 void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to);

@@ -64,14 +64,51 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
     return box;
 }
 
-/* Do all of these points lie beyond one side of the rectangle about an edge? */
-static int points_apart(const double *const point[], int count, const lrcsi_edge_rectangle *box)
+/* Limits a part of a segment to where a function that is linear along it, of the values `first` and
+   `last` at its ends, is at most `limit`. */
+static void part_limit(lrcsi_segment_part *part, double first, double last, double limit)
+{
+    if (first > limit && last > limit) {
+        *part = (lrcsi_segment_part){1, 0};
+    } else if (last > limit) {
+        part->to = lrcsi_min(part->to, (limit - first) / (last - first));
+    } else if (first > limit) {
+        part->from = lrcsi_max(part->from, (first - limit) / (first - last));
+    }
+}
+
+/* The rounding errors of the fractions move their points by a few u of the segment's and the
+   limit's sizes, which the box's errors contain. */
+lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, const double p[3],
+                                             const double q[3])
+{
+    const double *const end[2] = {p, q};
+    double across[2];
+    double back[2];   /* how far before a */
+    double beyond[2]; /* how far beyond b */
+    for (int k = 0; k < 2; k++) {
+        const double from_a[2] = {end[k][0] - box->a[0], end[k][1] - box->a[1]};
+        const double from_b[2] = {end[k][0] - box->b[0], end[k][1] - box->b[1]};
+        across[k] = box->along[0] * from_a[1] - box->along[1] * from_a[0];
+        back[k] = -(box->along[0] * from_a[0] + box->along[1] * from_a[1]);
+        beyond[k] = box->along[0] * from_b[0] + box->along[1] * from_b[1];
+    }
+    lrcsi_segment_part part = {0, 1};
+    part_limit(&part, across[0], across[1], box->half_width);
+    part_limit(&part, -across[0], -across[1], box->half_width);
+    part_limit(&part, back[0], back[1], box->before);
+    part_limit(&part, beyond[0], beyond[1], box->end);
+    return part;
+}
+
+/* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
+static int corners_apart(const double *const point[3], const lrcsi_edge_rectangle *box)
 {
     int left = 0;
     int right = 0;
     int before = 0;
     int beyond = 0;
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < 3; k++) {
         const double *x = point[k];
         const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
         const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
@@ -81,14 +118,7 @@ static int points_apart(const double *const point[], int count, const lrcsi_edge
         before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
         beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
     }
-    return left == count || right == count || before == count || beyond == count;
-}
-
-int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
-                               const double q[3])
-{
-    const double *const end[2] = {p, q};
-    return !points_apart(end, 2, box);
+    return left == 3 || right == 3 || before == 3 || beyond == 3;
 }
 
 lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
@@ -98,7 +128,7 @@ lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     lrcsi_slice slice = {.count = 0};
-    if (points_apart(point, 3, box)) {
+    if (corners_apart(point, box)) {
         return slice;
     }
     const double *along = box->along;

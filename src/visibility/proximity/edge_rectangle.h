@@ -32,9 +32,19 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
 lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
                                        const lrcsi_edge_rectangle *box);
 
-/* May a segment between two points in view coordinates meet the rectangle? */
-int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
-                               const double q[3]);
+/* A part of a segment from one point to another, as fractions of the way. */
+typedef struct lrcsi_segment_part {
+    double from, to; /* from > to: it is empty */
+} lrcsi_segment_part;
+
+static inline int lrcsi_segment_part_is_empty(lrcsi_segment_part part)
+{
+    return part.from > part.to;
+}
+
+/* The part of a segment between two points in view coordinates that may lie in the rectangle. */
+lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, const double p[3],
+                                             const double q[3]);
 
 /* What of a slice may not be farther than `depth` from the edge's line to the left of it (side 1),
    or to the right (-1), seen from low to high. */

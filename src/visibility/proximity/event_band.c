@@ -66,10 +66,10 @@
      r' <= 64 slacks of y. So the facets of Q hide y if and only if they hide x, and what
      proximity_band.c proves in 1 holds for x in place of y with e_P = 0. What 2 and 4 say of gain
      and loss holds as well, with delta = 0. []
-   A side of a facet is free if every event edge of other parts that may matter is farther than r' +
-   2 e_P from it in projection. Then all points of the true surface whose projections are within
-   2 e_P of the side, and that are within 60 e_P of the facet, are visible, and so are the points of
-   the facet there; or all of them are hidden. The proof is the same.
+   A part of a facet's side is free if every event edge of other parts that may matter is farther
+   than r' + 2 e_P from it in projection. Then all points of the true surface whose projections are
+   within 2 e_P of it, and that are within 60 e_P of the facet, are visible, and so are the points
+   of the facet there; or all of them are hidden. The proof is the same.
    On the inside of an open part the part itself may hide points, by 3: x unless its projection lies
    in the projected opening of W, and y unless it lies in that of S. These openings differ within
    k_P of the rims in 3 only. The fractions of aligned points do not contain what they differ by
@@ -349,7 +349,8 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
     return 1;
 }
 
-unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event)
+void lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                       lrcsi_near_sides *near)
 {
     const uint32_t facet = at->facet;
     const lrcsi_view *view = bands->view;
@@ -359,26 +360,26 @@ unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at,
     const uint32_t own = facet_part(bands, facet);
     const uint32_t part = bands->events.part[event];
     double slack = lrcsi_proximity_slack_aligned(p, part);
-    unsigned sides = 0;
     double unproved;
     if (part == own) {
         if (!at->inside || !rim_may_face(bands, event)) {
-            return 0;
+            return;
         }
         slack = p->proximity.hausdorff[own] + LRCSI_PROXIMITY_ERR;
     } else if (lrcsi_part_is_behind(&bands->orders, facet, part, &unproved) ||
                event_is_behind(bands, facet, event, 1)) {
-        return 0;
+        return;
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(view, facet, edge, slack + 2 * p->proximity.reach[own]);
     for (int k = 0; k < 3; k++) {
-        if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
-                                       view->point[corner[(k + 1) % 3]].x)) {
-            sides |= 1u << k;
+        const lrcsi_segment_part part_near = lrcsi_edge_rectangle_part(
+            &box, view->point[corner[k]].x, view->point[corner[(k + 1) % 3]].x);
+        if (!lrcsi_segment_part_is_empty(part_near)) {
+            near->side[k].from = lrcsi_min(near->side[k].from, part_near.from);
+            near->side[k].to = lrcsi_max(near->side[k].to, part_near.to);
         }
     }
-    return sides;
 }
 
 /* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes

@@ -68,9 +68,15 @@ typedef struct lrcsi_event_band {
 int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
                           int correspondence, lrcsi_event_band *band);
 
-/* The sides of a facet near which an event edge passes that the search does not exclude: bit k
-   stands for the side from corner k to k + 1. Edges of a part behind the facet's own do not
-   matter. */
-unsigned lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event);
+/* A part of each side of a facet, from corner k to k + 1, which contains all points of it near
+   which event edges pass: where it is empty, the side is free. */
+typedef struct lrcsi_near_sides {
+    lrcsi_segment_part side[3];
+} lrcsi_near_sides;
+
+/* Extends these parts by what is near an event edge that the search does not exclude. Edges of a
+   part behind the facet's own do not matter. */
+void lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                       lrcsi_near_sides *near);
 
 #endif

@@ -271,7 +271,7 @@ static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, job->face.facet, edge, slack);
-    if (!lrcsi_edge_rectangle_meets(&box, m->a, m->b)) {
+    if (lrcsi_segment_part_is_empty(lrcsi_edge_rectangle_part(&box, m->a, m->b))) {
         return 0;
     }
     if (is_own) {

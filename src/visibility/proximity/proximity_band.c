@@ -104,6 +104,10 @@ typedef struct band_job {
     lrcsi_proximity_band *band; /* to be filled */
 } band_job;
 
+/* Of the sides of a facet: no event edge is near; one may be near everywhere. */
+static const lrcsi_near_sides sides_free = {{{1, 0}, {1, 0}, {1, 0}}};
+static const lrcsi_near_sides sides_near = {{{0, 1}, {0, 1}, {0, 1}}};
+
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* Adds a fraction of a facet's area, near one of these parts, where the facets may hide what the
@@ -194,10 +198,7 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
-        if (band->free_sides[facet] != 0) {
-            band->free_sides[facet] &=
-                (unsigned char)~lrcsi_event_sides(&job->bands, at, job->listed[i]);
-        }
+        lrcsi_event_sides(&job->bands, at, job->listed[i], &band->sides[facet]);
         if (on_face && lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own)) {
             continue; /* its area is that of a margin */
         }
@@ -233,7 +234,7 @@ static int begin_aligned(band_job *job, uint32_t facet)
         open += unproved;
     }
     job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = open;
-    job->band->free_sides[facet] = 7;
+    job->band->sides[facet] = sides_free;
     return 1;
 }
 
@@ -246,7 +247,7 @@ static void add_face_rim(band_job *job, uint32_t facet, double pairs)
     const double reach = p->proximity.reach[p->scene->facet_part[facet]];
     const unsigned sides = lrcsi_face_margin_sides(job->view, facet);
     for (int k = 0; k < 3; k++) {
-        if (((sides >> k) & 1) != 0 && (pairs > 0 || ((band->free_sides[facet] >> k) & 1) == 0)) {
+        if (((sides >> k) & 1) != 0 && (pairs > 0 || !lrcsi_band_side_is_free(band, facet, k))) {
             double rim = 4 * reach * lrcsi_proximity_longest(p, facet) / p->normal[facet].length;
             band->gain_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
             band->loss_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
@@ -283,7 +284,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
         job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
-        job->band->free_sides[facet] = 7;
+        job->band->sides[facet] = sides_free;
     }
     if (!found) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
@@ -344,7 +345,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_blocks(6, facets, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     need = lrcsi_work_add(need, lrcsi_face_margins_need(p));
@@ -386,6 +387,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
     add_pairs(job); /* 2 */
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->gain_aligned[f] = -1;
+        band->sides[f] = sides_near;
         if (facet_matters(job->view, f)) {
             facet_fractions(job, f); /* 3 */
         }
@@ -435,14 +437,14 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
     m.gain_aligned = lrcsi_work_take(work, facets, sizeof *m.gain_aligned);
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
-    m.free_sides = lrcsi_work_take_zero(work, facets, 1);
+    m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
     m.face = lrcsi_work_take_zero(work, view->prepared->scene->part_count, sizeof *m.face);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.free_sides && m.face && m.parts && m.region
+                         m.sides && m.face && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

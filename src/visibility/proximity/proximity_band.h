@@ -9,6 +9,7 @@
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
+#include "visibility/proximity/event_band.h"
 #include "visibility/proximity/face_margin.h"
 #include "visibility/uniform/classify.h"
 #include "visibility/uniform/query.h"
@@ -19,17 +20,23 @@ typedef struct lrcsi_proximity_band {
     double *gain;     /* facet: fraction that the facets hide and the true shapes may not */
     double *loss;     /* facet: fraction that the true shapes may hide and the facets do not */
     double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
-    double *gain_aligned; /* facet: the gain where points of facet and true surface correspond if
+    double *gain_aligned;    /* facet: the gain where points of facet and true surface correspond if
                              their projections are equal (event_band.c, 5); negative: not known */
-    double *loss_aligned; /* facet: the loss then, if the gain is known */
-    unsigned char *free_sides; /* facet: bit k is 1 if no event edge of another part is near its
-                                  side from corner k to k + 1 (event_band.c, 5) */
-    lrcsi_face_margin *face;   /* part: of the flat face that the laser sees of it. The facets of a
+    double *loss_aligned;    /* facet: the loss then, if the gain is known */
+    lrcsi_near_sides *sides; /* facet: what of its sides may be near event edges, if the gain is
+                                  known (event_band.c, 5) */
+    lrcsi_face_margin *face; /* part: of the flat face that the laser sees of it. The facets of a
                                   known face have a gain and a loss of aligned points, which do not
                                   contain its margins (event_band.c, 6) */
-    lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
-    uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
+    lrcsi_part_set *parts;   /* facet: the parts whose bands it meets */
+    uint32_t *region;        /* facet of a curved part: its region, named by one of its facets */
 } lrcsi_proximity_band;
+
+/* Is a side of a facet, from corner k to k + 1, free? */
+static inline int lrcsi_band_side_is_free(const lrcsi_proximity_band *band, uint32_t facet, int k)
+{
+    return lrcsi_segment_part_is_empty(band->sides[facet].side[k]);
+}
 
 /* Upper bound of bytes; 0 if prepared->proximity.reach is NULL. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
