@@ -117,6 +117,25 @@ static void scene_at_random(int kind, const lrcs_brdf *brdf, patch_scene *s)
     patch_scene_make(&shape, 5e-2, brdf, 1, d, s);
 }
 
+/* Three parts of a side's margin are together the margin. */
+static void check_margin_parts(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
+                               const lrcsi_round_margin *whole)
+{
+    const double limit[4] = {-1, between(-1, 0), between(0, 1), 1};
+    double sum = 0;
+    double error = whole->sum.remainder + whole->sum.rounding;
+    for (int i = 0; i < 3; i++) {
+        lrcsi_round_margin part;
+        const lrcsi_round_range range = {limit[i], limit[i + 1]};
+        assert_int_equal(lrcsi_round_margin_make(wall, side, range, &part), 1);
+        check_most(fabs(part.sum.glint + part.sum.diffuse), part.largest);
+        check_most(part.width, whole->width * (1 + 1e-9));
+        sum += part.sum.glint + part.sum.diffuse;
+        error += part.sum.remainder + part.sum.rounding;
+    }
+    check_abs(sum, whole->sum.glint + whole->sum.diffuse, error);
+}
+
 /* One sector. Returns 0 if its margins are not all known. */
 static int sector_check(const lrcsi_round_wall *wall, uint32_t facet, double *largest)
 {
@@ -131,12 +150,13 @@ static int sector_check(const lrcsi_round_wall *wall, uint32_t facet, double *la
     assert_true(sector.sides == 2 + sector.facets);
     for (int i = 0; i < sector.sides; i++) {
         lrcsi_round_margin margin;
-        if (!lrcsi_round_margin_make(wall, &sector.side[i], &margin)) {
+        if (!lrcsi_round_margin_make(wall, &sector.side[i], lrcsi_round_whole_side, &margin)) {
             return 0;
         }
         check_most(fabs(margin.sum.glint + margin.sum.diffuse), margin.largest);
         margins += margin.sum.glint + margin.sum.diffuse;
         error += margin.sum.remainder + margin.sum.rounding;
+        check_margin_parts(wall, &sector.side[i], &margin);
     }
     for (int i = 0; i < sector.facets; i++) {
         facets += facet_integral(wall, sector.facet[i]);
@@ -191,9 +211,13 @@ static void what_is_not_on_the_wall_is_refused(void **state)
         int known = lrcsi_round_sector_make(&wall, f, &sector);
         assert_int_equal(known, lrcsi_patch_exists(s.view.prepared, f));
         if (known && lrcsi_view_incidence(&s.view, f).cos_theta > 0.5) {
-            assert_int_equal(lrcsi_round_margin_make(&wall, &sector.side[0], &margin), 1);
+            assert_int_equal(
+                lrcsi_round_margin_make(&wall, &sector.side[0], lrcsi_round_whole_side, &margin),
+                1);
             sector.side[0].chord[0] += 10;
-            assert_int_equal(lrcsi_round_margin_make(&wall, &sector.side[0], &margin), 0);
+            assert_int_equal(
+                lrcsi_round_margin_make(&wall, &sector.side[0], lrcsi_round_whole_side, &margin),
+                0);
             walls++;
         }
     }

@@ -108,6 +108,35 @@ static void the_rectangle_of_an_edge_seen_end_on_is_a_square(void **state)
     check_fraction(&slice, 1.0 / 8);
 }
 
+/* The part of the facet's side from corner a to b that is in the rectangle. from > to: none is. */
+static void check_part(const lrcsi_edge_rectangle *box, int a, int b, double from, double to)
+{
+    const lrcsi_segment_part part =
+        lrcsi_edge_rectangle_part(box, view.point[a].x, view.point[b].x);
+    assert_int_equal(lrcsi_segment_part_is_empty(part), from > to);
+    if (from <= to) {
+        check_abs(part.from, from, 1e-9);
+        check_abs(part.to, to, 1e-9);
+        check_most(part.from, from);
+        check_most(to, part.to);
+    }
+}
+
+/* The rectangle 0.5 <= x <= 1.5, -0.25 <= y <= 1.25 contains a part of the side from the origin to
+   (4, 0), and of the diagonal. */
+static void a_segment_is_in_a_rectangle_in_part(void **state)
+{
+    (void)state;
+    triangle_begin();
+    uint32_t v = side_add(1, 0.25, 1, 1, 0.75, 1);
+    look_from_above();
+    lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(&view, 0, edge_between(v, v + 1), 0.5 * unit);
+    check_part(&box, 0, 1, 0.125, 0.375);
+    check_part(&box, 1, 0, 0.625, 0.875);
+    check_part(&box, 0, 2, 0.125, 1.25 / 4);
+}
+
 static void nothing_of_a_facet_is_near_a_distant_edge(void **state)
 {
     (void)state;
@@ -118,11 +147,12 @@ static void nothing_of_a_facet_is_near_a_distant_edge(void **state)
     lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(&view, 0, edge, 1.9 * unit);
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(&view, 0, &box);
     assert_int_equal(slice.count, 0);
-    assert_false(lrcsi_edge_rectangle_meets(&box, view.point[0].x, view.point[1].x));
+    check_part(&box, 0, 1, 1, 0);
     box = lrcsi_edge_rectangle_make(&view, 0, edge, 3 * unit); /* 3 <= x <= 4 */
     slice = lrcsi_edge_rectangle_slice(&view, 0, &box);
     check_fraction(&slice, 3.5 / 8);
-    assert_true(lrcsi_edge_rectangle_meets(&box, view.point[0].x, view.point[1].x));
+    check_part(&box, 0, 1, 0.75, 1);
+    check_part(&box, 1, 0, 0, 0.25);
 }
 
 /* The edge is 1 below the facet's plane, which is more than 3 slack, or less. */
@@ -146,6 +176,7 @@ int main(void)
         cmocka_unit_test(a_strip_about_a_long_edge_is_divided_by_it),
         cmocka_unit_test(a_rectangle_ends_beyond_the_ends_of_its_edge),
         cmocka_unit_test(the_rectangle_of_an_edge_seen_end_on_is_a_square),
+        cmocka_unit_test(a_segment_is_in_a_rectangle_in_part),
         cmocka_unit_test(nothing_of_a_facet_is_near_a_distant_edge),
         cmocka_unit_test(an_edge_is_behind_a_facet_if_it_is_three_slacks_below_its_plane),
     };

@@ -201,9 +201,15 @@ static void check_sides(int near_diagonal)
         }
         const lrcsi_edge_search where = lrcsi_band_search(&bands, f);
         const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
+        lrcsi_near_sides near = {{{1, 0}, {1, 0}, {1, 0}}};
         unsigned sides = 0;
         for (uint32_t e = 0; e < bands.events.count; e++) {
-            sides |= is_near(&where, e) ? lrcsi_event_sides(&bands, &at, e) : 0;
+            if (is_near(&where, e)) {
+                lrcsi_event_sides(&bands, &at, e, &near);
+            }
+        }
+        for (unsigned k = 0; k < 3; k++) {
+            sides |= lrcsi_segment_part_is_empty(near.side[k]) ? 0u : 1u << k;
         }
         for (int k = 0; k < 3; k++) {
             const double *a = lrcsi_prepared_corner(view.prepared, f, k);

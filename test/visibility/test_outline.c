@@ -164,6 +164,22 @@ static int contour_side(const lrcsi_outline *o, uint32_t e)
     return use[front].forward ? 1 : -1;
 }
 
+/* Two parts of an edge have together the area along all of it. */
+static void check_margin_parts(const lrcsi_outline *o, const double a[3], const double b[3],
+                               int side)
+{
+    const double at = 0.5 + 0.5 * chance();
+    const lrcsi_outline_margin whole = lrcsi_outline_margin_make(o, a, b, side, 0, 1);
+    const lrcsi_outline_margin first = lrcsi_outline_margin_make(o, a, b, side, 0, at);
+    const lrcsi_outline_margin second = lrcsi_outline_margin_make(o, a, b, side, at, 1);
+    assert_int_equal(isfinite(first.error), isfinite(whole.error));
+    if (isfinite(whole.error)) {
+        check_abs(first.area + second.area, whole.area, whole.error + first.error + second.error);
+        check_most(first.error, whole.error);
+        check_most(first.width, whole.width);
+    }
+}
+
 static void check_areas(const lrcs_shape *shape, double tolerance, const double direction[3],
                         int *known, int *all)
 {
@@ -182,7 +198,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
         const double *b = view.point[topology->edge[e].high].x;
         if (side != 0) {
             lrcsi_outline_areas areas = lrcsi_outline_areas_make(&o, a, b, side);
-            lrcsi_outline_margin margin = lrcsi_outline_margin_make(&o, a, b, side);
+            lrcsi_outline_margin margin = lrcsi_outline_margin_make(&o, a, b, side, 0, 1);
             sum.gain += areas.gain;
             sum.loss += areas.loss;
             margins.area += margin.area;
@@ -190,6 +206,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
             assert_int_equal(isfinite(margin.error), isfinite(areas.gain));
             check_most(margin.area, areas.gain);
             check_most(-margin.area, areas.loss);
+            check_margin_parts(&o, a, b, side);
             from[0] += 0.5 * (a[0] + b[0]);
             from[1] += 0.5 * (a[1] + b[1]);
             count++;
@@ -305,11 +322,11 @@ static void nothing_is_known_along_edges_without_length_side_or_outline(void **s
     assert_true(o.known);
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 0).gain));
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, a, 1).gain));
-    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 0).error));
-    assert_true(isinf(lrcsi_outline_margin_make(&o, a, a, 1).error));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 0, 0, 1).error));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, a, 1, 0, 1).error));
     o.known = 0;
     assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 1).loss));
-    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 1).error));
+    assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 1, 0, 1).error));
 }
 
 int main(void)

@@ -54,14 +54,8 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "visibility/proximity/edge_margin.h"
 #include "visibility/uniform/query.h"
-
-/* An edge is used only if it is longer than this many widths w. */
-#define LENGTH_MIN_WIDTHS 2.0
-/* The sine of the largest turn between neighbouring event edges: below that of 0.5. An angle below
-   0.5 is at most 1.05 times its sine. */
-#define TURN_SINE_MAX   0.47
-#define ANGLE_OVER_SINE 1.05
 
 /* Another part, beside the plane of a face. */
 typedef struct face_part {
@@ -79,19 +73,9 @@ typedef struct face_job {
     int facets_tried, facets_made;
     lrcsi_face_frame face;
     face_part *part; /* of each part */
+    double contact;  /* the largest of any part */
     int parts_known;
 } face_job;
-
-/* An event edge: its ends, the distance w; the part with its outline. */
-typedef struct edge_margin {
-    uint32_t event;
-    const lrcsi_edge *edge;
-    const lrcsi_outline *outline;
-    const double *a, *b;
-    double length, along[2], outward[2]; /* outward: away from the facets of Q */
-    double contact;                      /* (b): what it leaves open in projection */
-    double err, width;                   /* e; w */
-} edge_margin;
 
 /* --- the parts beside the plane of a face ----------------------------------------------------- */
 
@@ -152,6 +136,7 @@ static void face_parts_make(face_job *job)
     const lrcs_scene *scene = p->scene;
     const double *up = scene->part[job->face.part].axis[2];
     const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
+    job->contact = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         const lrcsi_outline *outline = &bands->orders.outline[i];
@@ -163,6 +148,7 @@ static void face_parts_make(face_job *job)
             counted && outline->known &&
             lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->contact);
         beside->contact = beside->in_front ? beside->contact : 0;
+        job->contact = lrcsi_max(job->contact, beside->contact);
         if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack)) {
             continue;
         }
@@ -181,159 +167,38 @@ static void face_parts_make(face_job *job)
 
 /* --- one event edge --------------------------------------------------------------------------- */
 
-/* The errors of both ends of an edge, for points anywhere on the face. */
-static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
-{
-    return LRCSI_EDGE_RECTANGLE_ERR * (lrcsi_view_point_err(view->point[edge->low].x) +
-                                       lrcsi_view_point_err(view->point[edge->high].x));
-}
-
 /* Returns 0 if the edge is not over the face, or (b) does not hold. */
-static int edge_margin_make(face_job *job, uint32_t event, edge_margin *m)
+static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcsi_view *view = bands->view;
     const uint32_t part = bands->events.part[event];
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
-    const double side = bands->events.side[event];
-    *m = (edge_margin){.event = event,
-                       .edge = edge,
-                       .outline = &bands->orders.outline[part],
-                       .a = view->point[edge->low].x,
-                       .b = view->point[edge->high].x};
-    if (part == job->face.part || side == 0 || !lrcsi_face_contains(&job->face, m->a, 0) ||
-        !lrcsi_face_contains(&job->face, m->b, 0)) {
+    if (part == job->face.part || bands->events.side[event] == 0 ||
+        !lrcsi_face_contains(&job->face, view->point[edge->low].x, 0) ||
+        !lrcsi_face_contains(&job->face, view->point[edge->high].x, 0)) {
         return 0;
     }
     if (!job->parts_known) {
         face_parts_make(job);
     }
     const face_part *beside = &job->part[part];
-    if (!beside->in_front || lrcsi_event_rim_is_inside(bands, event)) {
-        return 0;
-    }
-    const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
-    m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    m->contact = beside->contact;
-    m->err = m->contact + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
-    m->width = 4 * (m->outline->k + m->err);
-    for (int i = 0; i < 2; i++) {
-        m->along[i] = ab[i] / m->length;
-    }
-    m->outward[0] = side * m->along[1];
-    m->outward[1] = -side * m->along[0];
-    return 1;
+    return beside->in_front &&
+           lrcsi_edge_margin_make(bands, event, job->face.part, beside->contact, m);
 }
 
 /* (a), and the length of the edge. */
-static int margin_fits_face(const face_job *job, const edge_margin *m)
+static int margin_fits_face(const face_job *job, const lrcsi_edge_margin *m)
 {
-    return m->length > LENGTH_MIN_WIDTHS * m->width &&
+    return m->length > LRCSI_EDGE_MARGIN_WIDTHS * m->width &&
            lrcsi_face_contains(&job->face, m->a, m->width) &&
            lrcsi_face_contains(&job->face, m->b, m->width);
 }
 
 /* --- what else is near ------------------------------------------------------------------------ */
 
-/* Does an event edge of Q lead away from the end a (0) or b (1) of an edge? Returns its turn; a
-   negative number if it does not. */
-static double edge_turn(const edge_margin *m, const lrcsi_view *view, const lrcsi_edge *other,
-                        int end)
-{
-    const uint32_t at = end == 0 ? m->edge->low : m->edge->high;
-    const double *from = view->point[at].x;
-    const double *to = view->point[other->low == at ? other->high : other->low].x;
-    const double away[2] = {to[0] - from[0], to[1] - from[1]};
-    double length = sqrt(away[0] * away[0] + away[1] * away[1]);
-    double along = away[0] * m->along[0] + away[1] * m->along[1];
-    double across = fabs(away[0] * m->along[1] - away[1] * m->along[0]);
-    if (!(length > m->width) || !((end == 0 ? -along : along) > 0) ||
-        !(across + m->err < TURN_SINE_MAX * length)) {
-        return -1;
-    }
-    return ANGLE_OVER_SINE * (across + m->err) / length;
-}
-
-/* (c): may an event edge of another part, or (d) one of Q that is not next to the edge, come within
-   its slack of N? For another part the slack of both parts is tested, which is larger than needed
-   (its own Hausdorff distance, or twice that, for aligned points), with the errors of both ends
-   wherever N lies on the face, and with what (b) leaves open of a part in front of the plane. */
-static int event_meets(face_job *job, const edge_margin *m, uint32_t other)
-{
-    lrcsi_event_bands *bands = job->bands;
-    const lrcs_prepared *p = bands->view->prepared;
-    const uint32_t part = bands->events.part[other];
-    const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[other]];
-    const int is_own = part == bands->events.part[m->event];
-    double slack = m->err + m->width + ends_err(bands->view, edge);
-    if (!is_own) {
-        slack += lrcsi_proximity_slack(p, job->face.part, part) + job->part[part].contact;
-    }
-    const lrcsi_edge_rectangle box =
-        lrcsi_edge_rectangle_make(bands->view, job->face.facet, edge, slack);
-    if (lrcsi_segment_part_is_empty(lrcsi_edge_rectangle_part(&box, m->a, m->b))) {
-        return 0;
-    }
-    if (is_own) {
-        return !lrcsi_event_rim_is_inside(bands, other);
-    }
-    return !lrcsi_edge_rectangle_behind(bands->view, job->face.facet, edge, slack) &&
-           !lrcsi_face_part_is_behind(bands, &job->face, part);
-}
-
-/* (c) and (d). Returned: the turns at both ends. Searched is a box larger than every distance that
-   event_meets tests: a slack is at most e_P + 2 k, a contact k / 2, and the errors of the ends of
-   another edge are smaller still. */
-static int margin_is_isolated(face_job *job, const edge_margin *m, double turn[2])
-{
-    lrcsi_event_bands *bands = job->bands;
-    const lrcs_prepared *p = bands->view->prepared;
-    const lrcsi_proximity_events *events = &bands->events;
-    const double near = p->proximity.reach[job->face.part] + 3 * p->proximity.max_hausdorff +
-                        2 * (m->err + m->width) + 64 * LRCSI_PROXIMITY_ERR;
-    const double low[3] = {lrcsi_min(m->a[0], m->b[0]) - near, lrcsi_min(m->a[1], m->b[1]) - near,
-                           0};
-    const double high[3] = {lrcsi_max(m->a[0], m->b[0]) + near, lrcsi_max(m->a[1], m->b[1]) + near,
-                            0};
-    const lrcsi_view_box box = lrcsi_view_box_round(bands->view, low, high);
-    lrcsi_grid_rect buckets = lrcsi_grid_buckets(&events->grid, &box);
-    lrcsi_grid_items items;
-    uint32_t next[2] = {LRCS_NONE, LRCS_NONE}; /* the events at both ends */
-    while (lrcsi_grid_next_row(&events->grid, &buckets, &items)) {
-        if (!lrcsi_meter_take(bands->meter, (uint64_t)1 + items.to - items.from)) {
-            return 0;
-        }
-        for (uint32_t i = items.from; i < items.to; i++) {
-            const uint32_t other = events->grid.item[i];
-            const lrcsi_edge *edge = &p->topology.edge[events->edge[other]];
-            int end = 2;
-            if (other == m->event || events->part[other] == job->face.part || other == next[0] ||
-                other == next[1]) {
-                continue;
-            }
-            if (events->part[other] == events->part[m->event]) {
-                const uint32_t a = m->edge->low;
-                const uint32_t b = m->edge->high;
-                end = edge->low == a || edge->high == a   ? 0
-                      : edge->low == b || edge->high == b ? 1
-                                                          : 2;
-            }
-            if (end < 2 && !lrcsi_event_rim_is_inside(bands, other)) {
-                turn[end] = edge_turn(m, bands->view, edge, end);
-                if (next[end] != LRCS_NONE || turn[end] < 0) {
-                    return 0;
-                }
-                next[end] = other;
-            } else if (event_meets(job, m, other)) {
-                return 0;
-            }
-        }
-    }
-    return next[0] != LRCS_NONE && next[1] != LRCS_NONE;
-}
-
 /* (e) */
-static int margin_is_clear_of_parts(face_job *job, const edge_margin *m)
+static int margin_is_clear_of_parts(face_job *job, const lrcsi_edge_margin *m)
 {
     const uint32_t parts = job->bands->view->prepared->scene->part_count;
     const double wide = m->width + m->err;
@@ -383,7 +248,7 @@ static void facets_make(face_job *job)
 
 /* (f): an answer of visibility/uniform/query.h for the point half of w beyond the middle of the
    edge. */
-static int margin_visibility(face_job *job, const edge_margin *m)
+static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_part *part = &view->prepared->scene->part[job->face.part];
@@ -428,16 +293,18 @@ static int margin_visibility(face_job *job, const edge_margin *m)
    returns the area, and a bound on its error. If the margin is on the face alone, this is the
    signed area between the outlines, or 0 if the face is hidden there; otherwise it lies between the
    loss and the gain of outline.c. The error is infinite if nothing is known. */
-static double edge_area(face_job *job, const edge_margin *m, double *error)
+static double edge_area(face_job *job, const lrcsi_edge_margin *m, double *error)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcsi_outline_areas *areas = &bands->areas[m->event];
     double turn[2];
     *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->contact;
     double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
+    const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
+                                            job->contact};
     int visibility = LRCSI_QUERY_UNDECIDED;
     if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
-        margin_is_isolated(job, m, turn)) {
+        lrcsi_edge_margin_is_isolated(bands, m, &receiver, turn)) {
         visibility = margin_visibility(job, m);
     }
     if (visibility == LRCSI_QUERY_HIDDEN) {
@@ -446,7 +313,7 @@ static double edge_area(face_job *job, const edge_margin *m, double *error)
     }
     if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
-            lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event]);
+            lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event], 0, 1);
         const double k = m->outline->k + m->err;
         const double err =
             margin.error + 2 * m->err * margin.width + 4 * k * k * (turn[0] + turn[1]);
@@ -494,10 +361,10 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             const uint32_t event = grid->item[i];
-            edge_margin m;
+            lrcsi_edge_margin m;
             double error;
             if (lrcsi_edge_faces_hold(&faces[event], job->face.part) ||
-                !edge_margin_make(job, event, &m)) {
+                !face_edge_make(job, event, &m)) {
                 continue;
             }
             const double area = edge_area(job, &m, &error);

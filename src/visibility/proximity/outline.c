@@ -37,7 +37,7 @@
 
    3. Signed area. The depth of the boundary of K is a convex function of t, where K reaches over
    the edge by 2 k at both ends. So it lies between the polygon and the tangents of 2, and its
-   integral over 0 <= t <= L between the integrals of these two.
+   integral over any part of 0 <= t <= L between the integrals of these two.
 
    The points q_j are support points: those of B that are farthest in a direction of the view plane.
    Their tangents are perpendicular to that direction. Here these directions are turned from the
@@ -150,11 +150,13 @@ int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int fac
     return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
 }
 
-/* An edge of the part in projection: where it begins, the axes of the coordinates t and depth. */
+/* An edge of the part in projection: where it begins, the axes of the coordinates t and depth; the
+   part of it over which areas are integrated. */
 typedef struct outline_edge {
     const lrcsi_outline *outline;
     const double *a;
     double along[2], outward[2], length;
+    double from, to;
 } outline_edge;
 
 /* A support point: coordinates t and depth, and the slope of its tangent. */
@@ -233,6 +235,8 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
     edge->along[1] = ab[1] / edge->length;
     edge->outward[0] = side * edge->along[1];
     edge->outward[1] = -side * edge->along[0];
+    edge->from = 0;
+    edge->to = edge->length;
     return 1;
 }
 
@@ -267,8 +271,8 @@ static int sums_add(const outline_edge *edge, const outline_point *p, const outl
     sums->loss += integral_positive(meet, high, to_q[0], to_q[1]);
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(from_p[0], from_p[1]));
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(to_q[0], to_q[1]));
-    const double from = lrcsi_max(p->t, 0);
-    const double to = lrcsi_min(q->t, edge->length);
+    const double from = lrcsi_max(p->t, edge->from);
+    const double to = lrcsi_min(q->t, edge->to);
     if (to > from) {
         const double at_from = p->depth + chord * (from - p->t);
         const double at_to = p->depth + chord * (to - p->t);
@@ -308,7 +312,7 @@ static int outline_sums_make(const outline_edge *edge, int per_side, outline_sum
 /* More than sqrt(2) times the length along which the outline is followed. */
 static double outline_width(const outline_edge *edge)
 {
-    return LRCSI_ROOT_2_OUTWARD * (edge->length + 4 * edge->outline->k);
+    return LRCSI_ROOT_2_OUTWARD * (edge->to - edge->from + 4 * edge->outline->k);
 }
 
 /* The error of depths along an edge from a to b. */
@@ -334,12 +338,15 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
 }
 
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],
-                                               const double b[3], int side)
+                                               const double b[3], int side, double from, double to)
 {
     outline_edge edge;
     outline_sums sums;
-    if (!outline_edge_make(o, a, b, side, &edge) ||
-        !outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums)) {
+    int known = outline_edge_make(o, a, b, side, &edge);
+    edge.from = from * edge.length;
+    edge.to = to * edge.length;
+    known = known && outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums);
+    if (!known) {
         return (lrcsi_outline_margin){0, HUGE_VAL, 0};
     }
     const double width = outline_width(&edge);

@@ -55,15 +55,16 @@ typedef struct lrcsi_outline_areas {
 lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *outline, const double a[3],
                                              const double b[3], int side);
 
-/* The signed area in projection between such an edge and the outline of the true solid over it, 0
-   <= t <= L in the terms of outline.c: positive where the facets reach farther than the solid. */
+/* The signed area in projection between such an edge, or a part of it, and the outline of the true
+   solid over it: positive where the facets reach farther than the solid. */
 typedef struct lrcsi_outline_margin {
     double area, error; /* infinite error: not known */
     double width;       /* times an error of the outline's position: to be added to the error */
 } lrcsi_outline_margin;
 
-/* Given: as above. */
+/* Given: as above; the part of the edge, as fractions of the way from a to b: from L <= t <= to L
+   in the terms of outline.c. */
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *outline, const double a[3],
-                                               const double b[3], int side);
+                                               const double b[3], int side, double from, double to);
 
 #endif

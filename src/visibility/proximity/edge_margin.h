@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* Event edges of a curved part over the surface of another one behind it: whether nothing else is
+   near enough to such an edge to change what is visible beside it. Then the area between the
+   outlines along the edge is known with its sign (visibility/proximity/face_margin.c). */
+#ifndef LRCSI_EDGE_MARGIN_H
+#define LRCSI_EDGE_MARGIN_H
+
+#include "visibility/proximity/face_frame.h"
+
+/* An edge is used only if it is longer than this many widths w. */
+#define LRCSI_EDGE_MARGIN_WIDTHS 2.0
+
+/* An event edge: its ends, the distance w; the part with its outline. */
+typedef struct lrcsi_edge_margin {
+    uint32_t event, part;
+    const lrcsi_edge *edge;
+    const lrcsi_outline *outline;
+    const double *a, *b;
+    double length, along[2], outward[2]; /* outward: away from the part's facets */
+    double contact;                      /* what is not known of the depth order, in projection */
+    double err, width;                   /* e; w */
+} lrcsi_edge_margin;
+
+/* The surface behind it. */
+typedef struct lrcsi_margin_receiver {
+    uint32_t part, facet;         /* P, and one of its facets under the edge */
+    const lrcsi_face_frame *face; /* its flat face; NULL: a curved wall */
+    double contact; /* on a face: the largest of what is not known of the depth order of any part */
+} lrcsi_margin_receiver;
+
+/* Makes it, given the contact. Returns 0 if the edge is not a contour edge of a part other than P
+   that has an outline. */
+int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
+                           double contact, lrcsi_edge_margin *margin);
+
+/* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: the turns
+   at both ends. */
+int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_margin *margin,
+                                  const lrcsi_margin_receiver *receiver, double turn[2]);
+
+#endif
