@@ -152,6 +152,7 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
         lrcsi_masked_band_find(&run->masked, memory->visible, meter, run->work);
         lrcsi_flat_faces_make(&run->masked, memory->visible, memory->face);
         run->areas.face = memory->face;
+        run->areas.margins = &run->masked;
     }
     if (run_band(run) && run->areas.moment) {
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, memory->visible,

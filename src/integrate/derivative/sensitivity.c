@@ -7,7 +7,7 @@
    Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
    (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
    pieces of its round wall, as the mean over its patch, or from its normal. The margins of a flat
-   face (lrcsi_flat_face_area) are added to the visible area of one of its facets.
+   face or on its wall (lrcsi_areas_margin) are added to the visible area of one of its facets.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"
@@ -182,7 +182,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         double fraction = visible_fraction(&areas, run, f, &incidence);
-        const double margin = lrcsi_flat_face_area(areas.face, view, f);
+        const double margin = lrcsi_areas_margin(&areas, view, f);
         fraction += margin != 0 ? margin / incidence.projected : 0;
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;

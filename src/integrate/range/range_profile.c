@@ -314,8 +314,8 @@ static void profile_add_tessellation(profile_run *run, uint32_t facet)
     lrcsi_range_facet f;
     lrcsi_range_facet other;
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
-    const lrcsi_tessellation_input in = {run->view, &run->plan, run->visible,
-                                         NULL,      run->band,  NULL};
+    const lrcsi_tessellation_input in = {run->view, &run->plan, run->visible, NULL, run->band,
+                                         NULL,      0};
     lrcsi_interval_error error = lrcsi_tessellation_interval(&in, facet, &incidence, &run->patches);
     facet_ranges(run, facet, &f);
     facet_ranges(run, error.partner, &other);

@@ -7,6 +7,7 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/flat_face.h"
+#include "integrate/wall/patch_visibility.h"
 #include "integrate/wall/round_terms.h"
 #include "visibility/base/visible_area.h"
 #include "visibility/uniform/query.h"
@@ -18,7 +19,8 @@ typedef struct lrcsi_areas {
     const unsigned char *answer;
     const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
     const lrcsi_round_terms *round_terms; /* what facets on curved walls add; NULL: not known */
-    const lrcsi_flat_face *face; /* [part_count]: margins on flat faces; NULL: none are used */
+    const lrcsi_flat_face *face;      /* [part_count]: margins on flat faces; NULL: none are used */
+    const lrcsi_masked_band *margins; /* its margins on straight walls are used; NULL: none are */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */
@@ -33,6 +35,15 @@ static inline const lrcsi_round_terms *lrcsi_areas_round_terms(const lrcsi_areas
 {
     return areas->round_terms && areas->round_terms[facet].known ? &areas->round_terms[facet]
                                                                  : NULL;
+}
+
+/* What is to be added to the visible area of a facet because of margins between the outlines of true
+   shapes and of their facets. */
+static inline double lrcsi_areas_margin(const lrcsi_areas *areas, const lrcsi_view *view,
+                                        uint32_t facet)
+{
+    return lrcsi_flat_face_area(areas->face, view, facet) +
+           (areas->margins ? lrcsi_straight_margin_area(areas->margins, areas->visible, facet) : 0);
 }
 
 /* The visible area of a facet of given incidence. */

@@ -169,6 +169,9 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     const lrcsi_proximity_band *band = run->band ? run->band->whole : NULL;
     lrcsi_part_set set = band ? band->parts[facet] : 0;
     int own = 1;
+    if (run->areas->margins && lrcsi_straight_margin(run->band, facet)) {
+        set = band->margin[facet].causes;
+    }
     if (band && lrcsi_flat_face_uses(run->areas->face, run->view, facet)) {
         const lrcsi_flat_face *face =
             &run->areas->face[run->view->prepared->scene->facet_part[facet]];
@@ -206,11 +209,11 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
     lrcsi_total_record(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
 }
 
-/* If a facet represents its face, adds sigma of the face's margins. The true reflectance differs
+/* Adds sigma of the margins on a facet, and of those of the face that it represents. The true reflectance differs
    from the facet's within the tessellation error. */
-static void add_face_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
+static void add_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
-    const double area = lrcsi_flat_face_area(run->areas->face, run->view, facet);
+    const double area = lrcsi_areas_margin(run->areas, run->view, facet);
     if (area == 0) {
         return;
     }
@@ -239,10 +242,11 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
         return;
     }
     if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {
-        const lrcsi_tessellation_input in = {run->view,          run->plan, run->areas->visible,
-                                             run->areas->moment, run->band, run->areas->face};
+        const lrcsi_tessellation_input in = {
+            run->view, run->plan,        run->areas->visible,        run->areas->moment,
+            run->band, run->areas->face, run->areas->margins != NULL};
         lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
-        add_face_margin(run, facet, incidence);
+        add_margin(run, facet, incidence);
         if (error.corrected) {
             add_correction(run, facet, error.glint, error.diffuse);
         }

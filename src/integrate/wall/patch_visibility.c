@@ -48,10 +48,10 @@ int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
 
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible_area *visible,
-                                               const lrcsi_masked_band *band)
+                                               const lrcsi_masked_band *band, int margins)
 {
     double error = incidence->error + 8 * LRCSI_U;
-    lrcsi_patch_fractions f = {0, 0, 0, 1};
+    lrcsi_patch_fractions f = {0, 0, 0, 1, 0};
     if (!band) {
         return f;
     }
@@ -60,9 +60,14 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
     }
     f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
     double visible_most = visible[facet].high / incidence->projected * (1 + 2 * error);
-    f.gain = fmin(lrcsi_masked_gain(band, facet), f.hidden);
-    f.loss = fmin(lrcsi_masked_loss(band, facet), visible_most);
-    f.visible = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
+    const int less = margins && !band->facet_hidden[facet]; /* 0 of hidden facets anyway */
+    const lrcsi_wall_margin *margin = &band->whole->margin[facet];
+    f.gain = fmin(less ? margin->gain : lrcsi_masked_gain(band, facet), f.hidden);
+    f.loss = fmin(less ? margin->loss : lrcsi_masked_loss(band, facet), visible_most);
+    f.visible = fmin(1, visible_most + fmin(lrcsi_masked_gain(band, facet), f.hidden));
+    f.margins = margins ? fabs(lrcsi_straight_margin_area(band, visible, facet)) /
+                              incidence->projected * (1 + error)
+                        : 0;
     return f;
 }
 

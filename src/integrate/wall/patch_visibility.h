@@ -24,6 +24,7 @@ typedef struct lrcsi_patch_fractions {
     double gain, loss; /* as in lrcsi_masked_band; only what is hidden may be gained, and only
                           what is visible lost */
     double visible;    /* visible on the true surface */
+    double margins;    /* the size of the area that the sum adds because of margins */
 } lrcsi_patch_fractions;
 
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
@@ -39,10 +40,33 @@ static inline int lrcsi_patch_is_visible(int state)
     return state == LRCSI_PATCH_VISIBLE || state == LRCSI_PATCH_PARTIAL;
 }
 
-/* The fractions of a facet of which a side that reflects faces the laser. */
+/* The fractions of a facet of which a side that reflects faces the laser. margins: 1 if the margins
+   on straight walls are accounted for elsewhere. */
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible_area *visible,
-                                               const lrcsi_masked_band *band);
+                                               const lrcsi_masked_band *band, int margins);
+
+/* The margins of other parts' event edges on a facet of a straight wall; NULL if it has none or is
+   hidden by other parts. */
+static inline const lrcsi_wall_margin *lrcsi_straight_margin(const lrcsi_masked_band *band,
+                                                             uint32_t facet)
+{
+    const lrcs_prepared *prepared = band->whole->classification->view->prepared;
+    const lrcsi_wall_margin *margin = &band->whole->margin[facet];
+    return margin->size + margin->loose > 0 && !lrcsi_proximity_on_round_wall(prepared, facet) &&
+                   !lrcsi_masked_band_is_hidden(band, facet)
+               ? margin
+               : NULL;
+}
+
+/* What the sum adds to the visible area of a facet because of them. Of a facet of which nothing is
+   visible the sum includes nothing. */
+static inline double lrcsi_straight_margin_area(const lrcsi_masked_band *band,
+                                                const lrcsi_visible_area *visible, uint32_t facet)
+{
+    const lrcsi_wall_margin *margin = lrcsi_straight_margin(band, facet);
+    return margin && visible[facet].high > 0 ? margin->area : 0;
+}
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
 double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,

@@ -78,6 +78,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "mesh/shape/patch_bounds.h"
 
 /* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
@@ -144,7 +145,8 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
     const double area_err = lrcsi_patch_area_err(p, facet, bounds);
     const double point = (1 + area_err) * d.point;
     const double value = (1 + area_err) * d.value_max;
-    const double hidden = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band).hidden;
+    const double hidden =
+        lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band, 0).hidden;
     const double most = lrcsi_face_margin_sides(in->view, facet) != 0 ? HUGE_VAL : hidden;
     double either = point + area_err * value;
     if (facet == face->facet) {
@@ -153,6 +155,27 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
     }
     return (lrcsi_tessellation){either + value * fmin(most, band->gain_aligned[facet]),
                                 either + value * band->loss_aligned[facet], 0, 0, 0};
+}
+
+/* The error of the margins on a facet of a straight wall, per unit of its area. F in them is that of
+   a patch next to the facet's (visibility/proximity/wall_margin.c): its normals turn from the
+   facet's by at most 3 `turn`. Where the sum does not include them, all that they add is an error.
+ */
+static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
+                           const lrcsi_incidence *incidence, const lrcs_brdf *brdf,
+                           const lrcsi_wall_margin *margin)
+{
+    lrcs_patch_bounds around = at->bounds;
+    around.turn *= 3;
+    around.rms_turn *= 3;
+    const lrcsi_deviation f =
+        lrcsi_deviation_make(brdf, fabs(incidence->cos_theta), incidence->tan2, &around);
+    const double most = fmax(f.value_max, at->deviation.of_f.value);
+    const double varies = f.point + fabs(at->deviation.of_f.value - f.value);
+    const int included = in->visible[at->facet].high > 0;
+    const double known = included ? varies + at->area_err * most : most;
+    return (1 + at->area_err) * (known * margin->size + most * margin->loose) /
+           (incidence->projected * (1 - incidence->error)) * LRCSI_OUTWARD_NANO;
 }
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
@@ -183,7 +206,9 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     const lrcs_patch_bounds bounds = patch_bounds_of(p, facet);
     int is_curved = bounds.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
-    int is_certain = !in->band || lrcsi_masked_mismatch(in->band, facet) == 0;
+    const lrcsi_wall_margin *margin =
+        is_curved && in->margins && in->band ? lrcsi_straight_margin(in->band, facet) : NULL;
+    int is_certain = !margin && (!in->band || lrcsi_masked_mismatch(in->band, facet) == 0);
     double area = 0.5 * p->normal[facet].length;
     double seen = is_curved && state == LRCSI_PATCH_HIDDEN
                       ? lrcsi_patch_hidden_fraction(incidence, facet, in->visible, in->band)
@@ -220,13 +245,14 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
                            .state = state,
                            .partner = partner,
                            .pair = {*incidence, *incidence},
-                           .fractions = {0, 0, 0, 1}};
+                           .fractions = {0, 0, 0, 1, 0}};
     if (state == LRCSI_PATCH_AWAY) {
         at.deviation.of_f =
             lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &bounds);
     } else {
         at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
-        at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band);
+        at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band,
+                                                in->margins && is_curved);
     }
     lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 6 */
                                at.fractions.loss * at.deviation.of_f.value_max, 0, 0, 0};
@@ -238,7 +264,13 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
             uint32_t other = facet == first;
             at.pair[other] = lrcsi_view_incidence(view, first + other);
         }
+        at.margin_size = margin ? margin->size / incidence->projected : 0;
         unit = lrcsi_wall_error(in, &at);
+    }
+    if (margin && state != LRCSI_PATCH_AWAY) {
+        const double err = margin_error(in, &at, incidence, &brdf, margin);
+        unit.above += err;
+        unit.below += err;
     }
     error.above += area * unit.above;
     error.below += area * unit.below;

@@ -127,9 +127,9 @@ static sector_bound sector_choose(const lrcsi_tessellation_input *in, const lrcs
     const double a = at->area_err;
     uint32_t first = lrcsi_patch_sector(p, at->facet);
     const lrcsi_patch_fractions one =
-        lrcsi_patch_fractions_of(&at->pair[0], first, in->visible, in->band);
+        lrcsi_patch_fractions_of(&at->pair[0], first, in->visible, in->band, in->margins);
     const lrcsi_patch_fractions two =
-        lrcsi_patch_fractions_of(&at->pair[1], first + 1, in->visible, in->band);
+        lrcsi_patch_fractions_of(&at->pair[1], first + 1, in->visible, in->band, in->margins);
     int is_cone = lrcsi_patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE;
     double hidden = fmax(one.hidden + one.loss, two.hidden + two.loss);
     double rows = sector_rows(p, is_cone ? at->facet : first, in->band);
@@ -174,8 +174,9 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
         return (lrcsi_tessellation){deviation->whole, deviation->whole, 0, 0, 0};
     }
     if (bound->method == BY_HIDDEN) {
-        return (lrcsi_tessellation){deviation->whole + f->hidden * sup,
-                                    deviation->whole + fmin(1, f->hidden + f->loss) * sup, 0, 0, 0};
+        return (lrcsi_tessellation){
+            deviation->whole + f->hidden * sup,
+            deviation->whole + fmin(1 + f->margins, f->hidden + f->loss) * sup, 0, 0, 0};
     }
     if (bound->method == BY_ROWS) {
         either = deviation->whole + bound->rows * bound_by_region(deviation, stretch);
@@ -183,6 +184,7 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
     } else if (bound->method == BY_REGION) {
         either = bound_by_region(deviation, stretch);
     }
+    sup *= 1 + f->margins;
     return (lrcsi_tessellation){fmin(either + deviation->value * (1 + a) * f->gain, sup),
                                 fmin(either + deviation->value * (1 + a) * f->loss, sup), 0, 0, 0};
 }
@@ -240,8 +242,8 @@ static lrcsi_tessellation sector_error(const lrcsi_tessellation_input *in,
     lrcsi_tessellation sum = {0, 0, 0, 0, 0};
     for (uint32_t facet = first; facet < first + 2; facet++) {
         int own = facet == at->facet;
-        lrcsi_patch_fractions f =
-            lrcsi_patch_fractions_of(&at->pair[facet - first], facet, in->visible, in->band);
+        lrcsi_patch_fractions f = lrcsi_patch_fractions_of(&at->pair[facet - first], facet,
+                                                           in->visible, in->band, in->margins);
         lrcsi_tessellation error =
             error_by(&f, at->area_err, own ? at->state : at->partner, own ? at->partner : at->state,
                      deviation, at->deviation.stretch, bound);
@@ -295,6 +297,7 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
         choice.method = by_region < by_point ? BY_REGION : BY_POINT;
     }
     *error = error_by(&at->fractions, a, at->state, at->partner, &deviation, stretch, &choice);
+    own.error += (1 + a) * linear.variation * at->margin_size;
     error->above += own.error;
     error->below += own.error;
     error->glint = own.glint;

@@ -21,6 +21,8 @@ typedef struct lrcsi_tessellation_input {
                                          visible areas include what could be hidden */
     const lrcsi_flat_face *face;   /* [part_count]: margins on flat faces that the sum includes;
                                       NULL: it includes none */
+    int margins;                   /* 1: the sum includes the margins on straight walls
+                    (lrcsi_straight_margin_area) */
 } lrcsi_tessellation_input;
 
 /* Bounds on the error: the true value exceeds that of the facets, and the correction if there is
@@ -64,6 +66,7 @@ typedef struct lrcsi_wall_facet {
     lrcsi_patch_fractions fractions; /* if the facet is hidden, gain and loss include what may be
                                         visible of it */
     lrcsi_patch_deviation deviation;
+    double margin_size; /* lrcsi_wall_margin, as a fraction of the facet; 0 without margins */
 } lrcsi_wall_facet;
 
 /* The error of such a facet per unit of its area, and its correction. If both facets of the sector

@@ -93,11 +93,15 @@
 #include "visibility/index/marks.h"
 #include "visibility/proximity/event_band.h"
 
+/* More than the relative rounding error of a sum of the fractions of any number of edges. */
+#define FRACTIONS_ROUNDING 0x1p-30
+
 typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
-    lrcsi_edge_faces *faces;    /* event: the parts whose faces include its margin */
+    lrcsi_edge_faces *faces; /* event: the parts whose faces include its margin */
+    lrcsi_wall_margins walls;
     lrcsi_box curved;           /* of all facets of curved parts, in the view */
     lrcsi_marks considered;     /* events: those that the search for the facet has met */
     uint32_t *listed;           /* events: those near the facet */
@@ -168,11 +172,17 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
+    const lrcs_prepared *p = job->view->prepared;
+    const int is_straight = p->scene->facet_smooth[facet] != 0 &&
+                            p->proximity.reach[p->scene->facet_part[facet]] > 0 &&
+                            !lrcsi_proximity_on_round_wall(p, facet);
+    lrcsi_wall_margin *margin = &band->margin[facet];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t part = job->bands.events.part[job->listed[i]];
         lrcsi_event_band fractions;
         if (band->gain[facet] >= 1 && band->loss[facet] >= 1) {
-            band->parts[facet] = LRCSI_PART_SET_ALL; /* the other edges are not considered */
+            /* the other edges are not considered */
+            band->parts[facet] = margin->causes = LRCSI_PART_SET_ALL;
             return;
         }
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
@@ -185,6 +195,12 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
             band->rows[facet] += fractions.rows;
+            if (is_straight && lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
+                margin->gain -= fractions.gain;
+                margin->loss -= fractions.loss;
+            } else {
+                margin->causes |= lrcsi_part_set_of(part);
+            }
         }
     }
 }
@@ -195,6 +211,7 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     const int on_face = lrcsi_face_margin_applies(job->view, facet);
+    const int is_round = lrcsi_proximity_on_round_wall(job->view->prepared, facet);
     const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
@@ -205,6 +222,11 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
         if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
             band->gain_aligned[facet] += fractions.gain + fractions.unproved;
             band->loss_aligned[facet] += fractions.loss + fractions.unproved;
+            if (is_round && fractions.area > 0 &&
+                lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
+                band->margin[facet].gain -= fractions.gain;
+                band->margin[facet].loss -= fractions.loss;
+            }
         }
     }
 }
@@ -279,6 +301,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
     const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
+    job->band->margin[facet].causes = job->band->parts[facet];
     const int on_face = job->band->face[p->scene->facet_part[facet]].known &&
                         lrcsi_face_margin_applies(view, facet);
     const int aligned = on_face || begin_aligned(job, facet);
@@ -349,16 +372,33 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     need = lrcsi_work_add(need, lrcsi_face_margins_need(p));
+    need = lrcsi_work_add(need, lrcsi_wall_margins_need(p));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_margin)));
     const size_t events = lrcsi_proximity_events_most(p);
     need = lrcsi_work_add(need, lrcsi_work_bytes(events, sizeof(lrcsi_edge_faces)));
     return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
+}
+
+/* What the bands of a facet add beside the margins on its wall: the sums of all bands, less those
+   of the margins, which `gain` and `loss` are until now. Differences of sums are rounded. */
+static void margin_finish(lrcsi_proximity_band *band, uint32_t facet)
+{
+    const int is_round = lrcsi_proximity_on_round_wall(band->classification->view->prepared, facet);
+    const double gain = is_round ? band->gain_aligned[facet] : band->gain[facet];
+    const double loss = is_round ? band->loss_aligned[facet] : band->loss[facet];
+    lrcsi_wall_margin *margin = &band->margin[facet];
+    margin->gain = lrcsi_max(0, gain + margin->gain) + FRACTIONS_ROUNDING * gain;
+    margin->loss = lrcsi_max(0, loss + margin->loss) + FRACTIONS_ROUNDING * loss;
+    if (band->parts[facet] == LRCSI_PART_SET_ALL) { /* not all edges were considered */
+        margin->gain = margin->loss = 1;
+    }
 }
 
 /* Computes all fractions:
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   4. mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
+   4. what the margins on a wall leave; mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
       their users compare the areas that they stand for with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
@@ -385,13 +425,19 @@ static int all_fractions(band_job *job, lrcs_work *work)
         }
     }
     add_pairs(job); /* 2 */
+    status =
+        lrcsi_wall_margins_make(&job->bands, band->classification, work, band->margin, &job->walls);
+    if (status != LRCS_OK) {
+        return status;
+    }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->gain_aligned[f] = -1;
         band->sides[f] = sides_near;
         if (facet_matters(job->view, f)) {
             facet_fractions(job, f); /* 3 */
         }
-        band->mismatch[f] = lrcsi_min(1, band->mismatch[f]); /* 4 */
+        margin_finish(band, f); /* 4 */
+        band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
         band->gain[f] = lrcsi_min(1, band->gain[f]);
         band->loss[f] = lrcsi_min(1, band->loss[f]);
         band->rows[f] = band->mismatch[f] < 1 ? lrcsi_min(1, band->rows[f]) : 1;
@@ -439,12 +485,13 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
     m.face = lrcsi_work_take_zero(work, view->prepared->scene->part_count, sizeof *m.face);
+    m.margin = lrcsi_work_take(work, facets, sizeof *m.margin);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.sides && m.face && m.parts && m.region
+                         m.sides && m.face && m.margin && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

@@ -11,6 +11,7 @@
 
 #include "visibility/proximity/event_band.h"
 #include "visibility/proximity/face_margin.h"
+#include "visibility/proximity/wall_margin.h"
 #include "visibility/uniform/classify.h"
 #include "visibility/uniform/query.h"
 
@@ -28,8 +29,9 @@ typedef struct lrcsi_proximity_band {
     lrcsi_face_margin *face; /* part: of the flat face that the laser sees of it. The facets of a
                                   known face have a gain and a loss of aligned points, which do not
                                   contain its margins (event_band.c, 6) */
-    lrcsi_part_set *parts;   /* facet: the parts whose bands it meets */
-    uint32_t *region;        /* facet of a curved part: its region, named by one of its facets */
+    lrcsi_wall_margin *margin; /* facet: the margins of other parts' event edges on its wall */
+    lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
+    uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
 } lrcsi_proximity_band;
 
 /* Is a side of a facet, from corner k to k + 1, free? */

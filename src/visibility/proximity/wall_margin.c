@@ -1,0 +1,481 @@
+/* SPDX-License-Identifier: MIT */
+/* Decides which event edges have margins over one curved wall alone, and adds the areas of these to
+   the facets that they meet. What that adds to sigma is decided in integrate/wall/wall_error.c and
+   round_pieces.c. Terms and conditions are those of visibility/proximity/proximity_band.c; K, K'
+   and k those of visibility/proximity/outline.h; w, N, (c) and (d) those of
+   visibility/proximity/face_margin.c.
+
+   P is a part with a curved wall, straight or round; Q is another part with an outline, and an event
+   edge of Q that belongs to a contour has the ends a and b, L apart in projection. Points x of the
+   true wall and y of the facets correspond by the map on straight walls; on round ones they are
+   aligned. In projection x and y are at most delta <= k apart; delta = 0 for aligned points. The
+   margins of the edge are known on the wall if
+   (a) the facets of P that face the laser as the wall does, and that N meets, are all on the wall,
+       and contain N in projection;
+   (b) a plane separates Q, in front, from P;
+   (c) no event edge of a part other than Q comes within its slack of N in projection, unless its
+       part is behind P; for P itself the slack is two reaches;
+   (d) of Q, only two other event edges meet N, as in face_margin.c;
+   (e) at these facets, (1) holds for no part that is neither in front of P nor behind it;
+   (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet of
+       the wall there is visible.
+   (a) holds if N meets no other facet across the sides of those facets: N is convex, and a straight
+   line from a point of it that such a facet contains to one that none contains would cross a side
+   beyond which there is none.
+
+   If the point of (f) is visible, then, as in face_margin.c, the facets hide y in N if and only if
+   its projection lies in K', and the true shapes hide x if and only if its projection lies in K:
+   by (b) whether Q hides either depends on projections alone, and by (c) and (e) no other part
+   hides anything there. P hides none of its own: its wall is convex where the laser sees its
+   outside; where it sees the inside, (c) keeps the rims of P away. If the point is hidden, it is
+   hidden by a part other than Q, and so is all of N, in truth and for the facets.
+
+   If it is visible, what the true shapes leave visible of the wall exceeds what the facets leave by
+   the points y in K' and not in K, less those in K and not in K'; and by those that are in K where x
+   is not, less the reverse. The first are a margin along the edge, of which t0 <= t <= t1 is
+   attributed to the facet that contains that part of the edge: its signed area follows from
+   visibility/proximity/outline.c, 3. The second are within sqrt(2) delta of the boundary of K in
+   depth: of each facet no more than that times the length of the edge along which the facet is
+   near. Beyond the ends of the edge, points are attributed as in face_margin.c.
+
+   A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
+   So F there is that of a patch within one row and one sector of it: this is tested for all facets
+   that the margin meets. */
+#include "visibility/proximity/wall_margin.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/outward.h"
+#include "base/range.h"
+#include "base/work.h"
+#include "mesh/shape/tessellate.h"
+#include "visibility/uniform/query.h"
+
+/* An edge whose margin meets more facets is not used: heuristic. */
+#define MAX_SHARES 1024u
+
+struct lrcsi_wall_share {
+    uint32_t facet;
+    lrcsi_wall_patch at;
+    double lateral;   /* delta */
+    double near[2];   /* t of the facet's points near the edge, in projection */
+    double from, to;  /* the part of the edge in the facet, as fractions; from > to: none */
+    double outer[2];  /* the same, enlarged by errors */
+    double uncertain; /* the fraction of the edge that may belong to it or not */
+};
+
+/* --- facets of a wall ------------------------------------------------------------------------- */
+
+/* Is (1) excluded on a round wall, where points are aligned, for all parts that are neither in front
+   of a facet's part nor behind it? */
+static int is_apart_if_aligned(lrcsi_event_bands *bands, uint32_t facet)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_part_set near = p->proximity.near[facet];
+    int apart = 1;
+    for (uint32_t i = 0; i < p->scene->part_count && apart && near != 0; i++) {
+        double unproved = 0;
+        apart = (near & lrcsi_part_set_of(i)) == 0 || i == p->scene->facet_part[facet] ||
+                (lrcsi_part_is_separated(&bands->orders, facet, i, &unproved) && unproved == 0);
+    }
+    return apart;
+}
+
+/* Is (1) excluded for the points of a facet of a straight wall that are in N? A facet of another
+   part within the slack of such a point is, in projection, within the slack of N. */
+static int is_apart_if_mapped(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                              uint32_t facet)
+{
+    lrcsi_event_bands *bands = job->bands;
+    const lrcs_prepared *p = bands->view->prepared;
+    const uint32_t own = p->scene->facet_part[facet];
+    int apart = 1;
+    for (uint32_t i = job->first_pair[facet]; i != LRCS_NONE && apart; i = job->next_pair[i]) {
+        const uint32_t other = p->proximity.pair[i].other;
+        const uint32_t part = p->scene->facet_part[other];
+        double unproved = 0;
+        const double slack = m->width + m->err + lrcsi_proximity_slack(p, own, part);
+        const lrcsi_edge_rectangle box =
+            lrcsi_edge_rectangle_make(bands->view, other, m->edge, slack);
+        apart =
+            lrcsi_meter_take(bands->meter, 1) &&
+            (lrcsi_edge_rectangle_slice(bands->view, other, &box).count == 0 ||
+             (lrcsi_part_is_separated(&bands->orders, facet, part, &unproved) && unproved == 0));
+    }
+    return apart;
+}
+
+static int facet_is_apart(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
+{
+    return lrcsi_proximity_on_round_wall(job->bands->view->prepared, facet)
+               ? is_apart_if_aligned(job->bands, facet)
+               : is_apart_if_mapped(job, m, facet);
+}
+
+/* May a facet have margins? It is not seen edge-on to within rounding, and on a wall of which the
+   correspondence of points is known. */
+static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
+{
+    const lrcsi_view *view = job->bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t index = p->scene->facet_part[facet];
+    const lrcs_part *part = &p->scene->part[index];
+    lrcsi_wall_patch at;
+    return part->rigid && part->bounds.reach > 0 && !p->skip[facet] &&
+           lrcsi_view_casts(view, facet) && lrcsi_view_reflects(view, facet) &&
+           (lrcsi_proximity_on_round_wall(p, facet) || lrcsi_proximity_closed(p, index)) &&
+           fabs(lrcsi_view_incidence(view, facet).cos_theta) >
+               p->proximity.grazing_cos[index] + LRCSI_VIEW_COS_ERR &&
+           lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at);
+}
+
+/* Are two sectors the same or next to each other? */
+static int is_next_to(const lrcsi_wall_patch *a, const lrcsi_wall_patch *b, uint32_t around)
+{
+    const uint32_t rows = a->row > b->row ? a->row - b->row : b->row - a->row;
+    const uint32_t apart = a->sector > b->sector ? a->sector - b->sector : b->sector - a->sector;
+    return a->mirrored == b->mirrored && rows <= 1 && (apart <= 1 || apart + 1 >= around);
+}
+
+/* --- the facets that a margin meets ----------------------------------------------------------- */
+
+/* Limits a range of t, where a function that is linear from `first` to `last` is at most `limit`. */
+static void range_limit(double range[2], double first, double last, double limit)
+{
+    if (first > limit && last > limit) {
+        range[1] = -1;
+    } else if (last > limit) {
+        range[1] = lrcsi_min(range[1], (limit - first) / (last - first));
+    } else if (first > limit) {
+        range[0] = lrcsi_max(range[0], (first - limit) / (first - last));
+    }
+}
+
+/* Finds the part of the edge in a facet, between the lines of its sides. */
+static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                      lrcsi_wall_share *share)
+{
+    const lrcsi_view *view = job->bands->view;
+    const uint32_t *corner = view->prepared->scene->facet[share->facet].corner;
+    const double err = m->err + lrcsi_edge_rectangle_facet_err(view, share->facet);
+    double in[2] = {0, 1};
+    double inner[2] = {0, 1};
+    double outer[2] = {0, 1};
+    for (int k = 0; k < 3; k++) {
+        const double *p = view->point[corner[k]].x;
+        const double *q = view->point[corner[(k + 1) % 3]].x;
+        const double side[2] = {q[0] - p[0], q[1] - p[1]};
+        const double length = sqrt(side[0] * side[0] + side[1] * side[1]);
+        double height[2]; /* of a and b, outside the side */
+        for (int i = 0; i < 2; i++) {
+            const double *x = i == 0 ? m->a : m->b;
+            const double cross = side[0] * (x[1] - p[1]) - side[1] * (x[0] - p[0]);
+            height[i] = length > 0 ? -view->facing[share->facet] * cross / length : HUGE_VAL;
+        }
+        range_limit(in, height[0], height[1], 0);
+        range_limit(inner, height[0], height[1], -err);
+        range_limit(outer, height[0], height[1], err);
+    }
+    share->from = in[0];
+    share->to = in[1];
+    share->outer[0] = outer[0];
+    share->outer[1] = outer[1];
+    share->uncertain = lrcsi_max(0, outer[1] - outer[0]) - lrcsi_max(0, inner[1] - inner[0]);
+}
+
+/* The distance in projection from the edge within which points may be visible for the true shapes
+   and not for the facets, or the reverse. */
+static double share_slack(const lrcsi_edge_margin *m, double lateral)
+{
+    return m->outline->k + LRCSI_ROOT_2_OUTWARD * lateral + m->err;
+}
+
+/* Makes the share of a facet. Returns 0 if its part of the wall cannot be used. */
+static int share_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet,
+                      lrcsi_wall_share *share)
+{
+    const lrcsi_view *view = job->bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    double unproved = 0;
+    *share = (lrcsi_wall_share){.facet = facet};
+    if (!lrcsi_proximity_on_round_wall(p, facet)) {
+        const lrcsi_displacement displacement = lrcsi_proximity_displacement(p, facet);
+        share->lateral = lrcsi_displacement_across(&displacement, view->unit);
+    }
+    if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
+        !(share->lateral <= m->outline->k) ||
+        !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved) ||
+        unproved > 0) {
+        return 0;
+    }
+    lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &share->at);
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(view, facet, m->edge, share_slack(m, share->lateral));
+    const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
+    share->near[0] = HUGE_VAL;
+    share->near[1] = -HUGE_VAL;
+    for (int i = 0; i < slice.count; i++) {
+        const double t =
+            m->along[0] * (slice.x[i][0] - m->a[0]) + m->along[1] * (slice.x[i][1] - m->a[1]);
+        share->near[0] = lrcsi_min(share->near[0], t - box.err);
+        share->near[1] = lrcsi_max(share->near[1], t + box.err);
+    }
+    share_cut(job, m, share);
+    return box.has_sides;
+}
+
+/* Finds all facets that N meets, from one of them on. Returns 0 if (a), (b) or (e) does not hold. */
+static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
+{
+    const lrcsi_view *view = job->bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const int facing = view->facing[facet];
+    lrcsi_marks_clear(&job->reached, p->scene->facet_count);
+    job->reached.entry[facet] = job->reached.number;
+    job->shares = 0;
+    if (!share_make(job, m, facet, &job->share[job->shares++])) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < job->shares; i++) {
+        const uint32_t f = job->share[i].facet;
+        const uint32_t *corner = p->scene->facet[f].corner;
+        const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, f, m->edge, m->width);
+        if (!lrcsi_meter_take(job->bands->meter, 4)) {
+            return 0;
+        }
+        for (int k = 0; k < 3; k++) {
+            const uint32_t other = p->neighbours.facet[f].corner[k];
+            if (lrcsi_segment_part_is_empty(lrcsi_edge_rectangle_part(
+                    &box, view->point[corner[k]].x, view->point[corner[(k + 1) % 3]].x))) {
+                continue;
+            }
+            if (other >= p->scene->facet_count ||
+                p->scene->facet_part[other] != p->scene->facet_part[f] ||
+                view->facing[other] != facing) {
+                return 0;
+            }
+            if (lrcsi_marked(&job->reached, other)) {
+                continue;
+            }
+            job->reached.entry[other] = job->reached.number;
+            if (job->shares == MAX_SHARES ||
+                !share_make(job, m, other, &job->share[job->shares++])) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Are the patches above each part of the margin next to the facet to which it is attributed? */
+static int shares_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+{
+    const lrcs_scene *scene = job->bands->view->prepared->scene;
+    const uint32_t part = scene->facet_part[job->share[0].facet];
+    const uint32_t around = scene->part[part].divisions.around;
+    int local = lrcsi_meter_take(job->bands->meter, (uint64_t)job->shares * job->shares / 16);
+    for (uint32_t i = 0; i < job->shares && local; i++) {
+        const lrcsi_wall_share *share = &job->share[i];
+        const double from = share->outer[0] * m->length - m->err;
+        const double to = share->outer[1] * m->length + m->err;
+        for (uint32_t k = 0; k < job->shares && local && share->outer[0] <= share->outer[1]; k++) {
+            const lrcsi_wall_share *other = &job->share[k];
+            local = other->near[1] < from || other->near[0] > to ||
+                    is_next_to(&share->at, &other->at, around);
+        }
+    }
+    return local;
+}
+
+/* --- is the wall visible beside the edge? ----------------------------------------------------- */
+
+/* Makes the grid for queries, if there is memory for it. */
+static void facets_make(lrcsi_wall_margins *job)
+{
+    const lrcs_scene *scene = job->bands->view->prepared->scene;
+    lrcsi_classification *c = job->classification;
+    job->facets_tried = 1;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        job->reader[f] = c->undecided[f] && facet_applies(job, f);
+    }
+    const lrcsi_grid_readers readers = {.undecided = job->reader};
+    job->facets_made = lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, job->work,
+                                         &job->facets) == LRCS_OK;
+}
+
+/* The point of a facet above a point of the view plane. Returns 0 if the facet is not above it. */
+static int facet_point(const lrcsi_view *view, uint32_t facet, const double x[2], double point[3])
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    double weight[3];
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = view->point[corner[(k + 1) % 3]].x;
+        const double *b = view->point[corner[(k + 2) % 3]].x;
+        weight[k] =
+            view->facing[facet] * ((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]));
+        sum += weight[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        point[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            point[k] += weight[i] / sum * lrcsi_prepared_corner(p, facet, i)[k];
+        }
+    }
+    return sum > 0 && weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0;
+}
+
+/* (f): an answer of visibility/uniform/query.h for a point half of w beyond the edge. */
+static int margin_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+{
+    const lrcsi_view *view = job->bands->view;
+    double longest = 0;
+    double t = 0.5;
+    double x[2];
+    if (!job->facets_tried) {
+        facets_make(job);
+    }
+    for (uint32_t i = 0; i < job->shares; i++) {
+        const lrcsi_wall_share *share = &job->share[i];
+        if (share->to - share->from > longest) {
+            longest = share->to - share->from;
+            t = 0.5 * (share->from + share->to);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        x[i] = m->a[i] + t * (m->b[i] - m->a[i]) + 0.5 * m->width * m->outward[i];
+    }
+    for (uint32_t i = 0; i < job->shares && job->facets_made; i++) {
+        double point[3];
+        const uint32_t f = job->share[i].facet;
+        if (job->reader[f] && facet_point(view, f, x, point)) {
+            return lrcsi_query_point(&job->facets, f, point, job->bands->meter);
+        }
+    }
+    return LRCSI_QUERY_UNDECIDED;
+}
+
+/* --- margins ---------------------------------------------------------------------------------- */
+
+/* Adds the share of a facet. Its area is known to within: the bounds of outline.c and errors of
+   positions; where the part of the edge in it ends; the points at the ends of the edge; the
+   displacement of points. */
+static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                      const lrcsi_outline_margin *margin, const double turn[2],
+                      const lrcsi_wall_share *share)
+{
+    const lrcsi_outline_areas *areas = &job->bands->areas[m->event];
+    const double depth = areas->gain_depth + areas->loss_depth;
+    const double part = lrcsi_max(0, share->outer[1] - share->outer[0]);
+    const double near = lrcsi_max(0, share->near[1] - share->near[0]);
+    const double k = m->outline->k + m->err;
+    double ends = share->near[0] < 2 * k ? 4 * k * k * turn[0] : 0;
+    ends += share->near[1] > m->length - 2 * k ? 4 * k * k * turn[1] : 0;
+    lrcsi_wall_margin *to = &job->margin[share->facet];
+    to->area += margin->area;
+    to->size += depth * part * m->length * LRCSI_OUTWARD_NANO;
+    to->loose +=
+        (margin->error + 2 * m->err * margin->width + depth * share->uncertain * m->length + ends +
+         LRCSI_ROOT_2_OUTWARD * share->lateral * near) *
+        LRCSI_OUTWARD_NANO;
+}
+
+/* Adds the margins of an edge, if all of them are known. */
+static int shares_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, const double turn[2])
+{
+    const double side = job->bands->events.side[m->event];
+    const lrcsi_outline_margin none = {0, 0, 0};
+    for (uint32_t i = 0; i < job->shares; i++) {
+        const lrcsi_wall_share *share = &job->share[i];
+        lrcsi_outline_margin margin = none;
+        if (share->from < share->to) {
+            margin = lrcsi_outline_margin_make(m->outline, m->a, m->b, (int)side, share->from,
+                                               share->to);
+        }
+        if (!isfinite(margin.error)) {
+            return 0; /* then it is so for the first one that is made */
+        }
+        share_add(job, m, &margin, turn, share);
+    }
+    return 1;
+}
+
+/* Examines an event edge over the wall of a facet that its N meets. */
+static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
+{
+    lrcsi_event_bands *bands = job->bands;
+    const uint32_t part = bands->view->prepared->scene->facet_part[facet];
+    const lrcsi_margin_receiver receiver = {part, facet, NULL, 0};
+    lrcsi_edge_margin m;
+    double turn[2];
+    if (!lrcsi_edge_margin_make(bands, event, part, 0, &m) ||
+        !(m.length > LRCSI_EDGE_MARGIN_WIDTHS * m.width) ||
+        !isfinite(bands->areas[event].gain_depth) || !shares_find(job, &m, facet) ||
+        !shares_are_local(job, &m) || !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
+        return 0;
+    }
+    const int visibility = margin_visibility(job, &m);
+    return visibility == LRCSI_QUERY_HIDDEN ||
+           (visibility == LRCSI_QUERY_VISIBLE && shares_add(job, &m, turn));
+}
+
+int lrcsi_wall_margins_hold(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
+{
+    const lrcsi_view *view = job->bands->view;
+    const uint32_t part = view->prepared->scene->facet_part[facet];
+    const int facing = view->facing[facet];
+    lrcsi_wall_event *at = &job->event[event];
+    if (!facet_applies(job, facet)) {
+        return 0;
+    }
+    if (at->part != part || at->facing != facing) {
+        *at = (lrcsi_wall_event){part, facing, event_examine(job, facet, event)};
+    }
+    return at->known;
+}
+
+size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
+{
+    const size_t facets = p->scene->facet_count;
+    size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(MAX_SHARES, sizeof(lrcsi_wall_share)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
+}
+
+int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+                            lrcs_work *work, lrcsi_wall_margin *margin, lrcsi_wall_margins *job)
+{
+    const uint32_t facets = bands->view->prepared->scene->facet_count;
+    const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
+    *job = (lrcsi_wall_margins){
+        .bands = bands, .classification = classification, .work = work, .margin = margin};
+    job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
+    job->share = lrcsi_work_take(work, MAX_SHARES, sizeof *job->share);
+    job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
+    job->reader = lrcsi_work_take(work, facets, 1);
+    job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
+    job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
+    if (!job->event || !job->share || !job->reached.entry || !job->reader || !job->first_pair ||
+        !job->next_pair) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < bands->events.count; i++) {
+        job->event[i] = (lrcsi_wall_event){LRCS_NONE, 0, 0};
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        margin[f] = (lrcsi_wall_margin){.area = 0};
+        job->first_pair[f] = LRCS_NONE;
+    }
+    for (uint32_t i = 0; i < proximity->count; i++) {
+        uint32_t *first = &job->first_pair[proximity->pair[i].facet];
+        job->next_pair[i] = *first;
+        *first = i;
+    }
+    return LRCS_OK;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* Curved walls behind the outlines of true curved shapes and of their facets: in the margins along
+   event edges where nothing else is near, how much more of each facet of a wall the true shapes
+   leave visible than the facets do. */
+#ifndef LRCSI_WALL_MARGIN_H
+#define LRCSI_WALL_MARGIN_H
+
+#include "visibility/index/marks.h"
+#include "visibility/proximity/edge_margin.h"
+#include "visibility/uniform/classify.h"
+
+/* Of a facet. Areas are in projection, scaled. */
+typedef struct lrcsi_wall_margin {
+    double area;           /* what the true shapes leave visible, less what their facets leave */
+    double size;           /* bound on the area in the margins: F may vary over it */
+    double loose;          /* bound on the error of the area */
+    double gain, loss;     /* the fractions of lrcsi_proximity_band without these margins; set only
+                              on straight walls */
+    lrcsi_part_set causes; /* the parts of these fractions */
+} lrcsi_wall_margin;
+
+/* What is known of an event edge over a wall. */
+typedef struct lrcsi_wall_event {
+    uint32_t part; /* whose wall was examined last; LRCS_NONE: none was */
+    int facing;    /* the side of that wall */
+    int known;     /* 1: its margins there are */
+} lrcsi_wall_event;
+
+/* A facet that the margin of an edge meets. */
+typedef struct lrcsi_wall_share lrcsi_wall_share;
+
+/* The search for margins, facet by facet. */
+typedef struct lrcsi_wall_margins {
+    lrcsi_event_bands *bands;
+    lrcsi_classification *classification;
+    lrcs_work *work;
+    uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
+                                         next one of the same facet; LRCS_NONE: no further one */
+    lrcsi_wall_margin *margin;        /* facet: to be filled */
+    lrcsi_wall_event *event;          /* event */
+    lrcsi_wall_share *share;          /* those of the edge under examination */
+    uint32_t shares;
+    lrcsi_marks reached;   /* facets: those of the edge under examination */
+    unsigned char *reader; /* facet: whether queries may be made at it */
+    lrcsi_grid facets;     /* for queries; made when first needed */
+    int facets_tried, facets_made;
+} lrcsi_wall_margins;
+
+/* Scratch memory for it. */
+size_t lrcsi_wall_margins_need(const lrcs_prepared *prepared);
+
+/* Begins the search, given room for the margins of all facets, which become 0. It stays in the work
+   area. Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+                            lrcs_work *work, lrcsi_wall_margin *margin,
+                            lrcsi_wall_margins *margins);
+
+/* Are the margins of an event edge known on the wall of a facet near it? The first time that this
+   is asked of a wall, they are added to all facets that they meet. */
+int lrcsi_wall_margins_hold(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
+
+#endif
