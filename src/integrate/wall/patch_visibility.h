@@ -51,12 +51,9 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
 static inline const lrcsi_wall_margin *lrcsi_straight_margin(const lrcsi_masked_band *band,
                                                              uint32_t facet)
 {
-    const lrcs_prepared *prepared = band->whole->classification->view->prepared;
     const lrcsi_wall_margin *margin = &band->whole->margin[facet];
-    return margin->size + margin->loose > 0 && !lrcsi_proximity_on_round_wall(prepared, facet) &&
-                   !lrcsi_masked_band_is_hidden(band, facet)
-               ? margin
-               : NULL;
+    return margin->size + margin->loose > 0 && !lrcsi_masked_band_is_hidden(band, facet) ? margin
+                                                                                         : NULL;
 }
 
 /* What the sum adds to the visible area of a facet because of them. Of a facet of which nothing is

@@ -172,10 +172,6 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
-    const lrcs_prepared *p = job->view->prepared;
-    const int is_straight = p->scene->facet_smooth[facet] != 0 &&
-                            p->proximity.reach[p->scene->facet_part[facet]] > 0 &&
-                            !lrcsi_proximity_on_round_wall(p, facet);
     lrcsi_wall_margin *margin = &band->margin[facet];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t part = job->bands.events.part[job->listed[i]];
@@ -195,9 +191,9 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
             band->rows[facet] += fractions.rows;
-            if (is_straight && lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
-                margin->gain -= fractions.gain;
-                margin->loss -= fractions.loss;
+            if (lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
+                margin->gain += fractions.gain;
+                margin->loss += fractions.loss;
             } else {
                 margin->causes |= lrcsi_part_set_of(part);
             }
@@ -211,7 +207,6 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     const int on_face = lrcsi_face_margin_applies(job->view, facet);
-    const int is_round = lrcsi_proximity_on_round_wall(job->view->prepared, facet);
     const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
@@ -222,11 +217,6 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
         if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
             band->gain_aligned[facet] += fractions.gain + fractions.unproved;
             band->loss_aligned[facet] += fractions.loss + fractions.unproved;
-            if (is_round && fractions.area > 0 &&
-                lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
-                band->margin[facet].gain -= fractions.gain;
-                band->margin[facet].loss -= fractions.loss;
-            }
         }
     }
 }
@@ -379,16 +369,14 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
 }
 
-/* What the bands of a facet add beside the margins on its wall: the sums of all bands, less those
-   of the margins, which `gain` and `loss` are until now. Differences of sums are rounded. */
+/* Makes the fractions of a facet beside the margins on its wall: those of all bands, less those of
+   the margins, of which margin->gain and loss are the sums until now. */
 static void margin_finish(lrcsi_proximity_band *band, uint32_t facet)
 {
-    const int is_round = lrcsi_proximity_on_round_wall(band->classification->view->prepared, facet);
-    const double gain = is_round ? band->gain_aligned[facet] : band->gain[facet];
-    const double loss = is_round ? band->loss_aligned[facet] : band->loss[facet];
     lrcsi_wall_margin *margin = &band->margin[facet];
-    margin->gain = lrcsi_max(0, gain + margin->gain) + FRACTIONS_ROUNDING * gain;
-    margin->loss = lrcsi_max(0, loss + margin->loss) + FRACTIONS_ROUNDING * loss;
+    const double rounding = FRACTIONS_ROUNDING * (band->gain[facet] + band->loss[facet]);
+    margin->gain = lrcsi_max(0, band->gain[facet] - margin->gain) + rounding;
+    margin->loss = lrcsi_max(0, band->loss[facet] - margin->loss) + rounding;
     if (band->parts[facet] == LRCSI_PART_SET_ALL) { /* not all edges were considered */
         margin->gain = margin->loss = 1;
     }

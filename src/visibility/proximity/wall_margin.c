@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which event edges have margins over one curved wall alone, and adds the areas of these to
-   the facets that they meet. What that adds to sigma is decided in integrate/wall/wall_error.c and
-   round_pieces.c. Terms and conditions are those of visibility/proximity/proximity_band.c; K, K'
-   and k those of visibility/proximity/outline.h; w, N, (c) and (d) those of
-   visibility/proximity/face_margin.c.
+/* Decides which event edges have margins over one straight wall alone, and adds the areas of these
+   to the facets that they meet. What that adds to sigma is decided in integrate/wall/tessellation.c.
+   Terms and conditions are those of visibility/proximity/proximity_band.c; K, K' and k those of
+   visibility/proximity/outline.h; w, N, (c) and (d) those of visibility/proximity/face_margin.c.
 
-   P is a part with a curved wall, straight or round; Q is another part with an outline, and an event
-   edge of Q that belongs to a contour has the ends a and b, L apart in projection. Points x of the
-   true wall and y of the facets correspond by the map on straight walls; on round ones they are
-   aligned. In projection x and y are at most delta <= k apart; delta = 0 for aligned points. The
-   margins of the edge are known on the wall if
+   P is a closed part with a straight wall (a cylinder, cone or frustum), Q another part with an
+   outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in projection.
+   The points x of the true wall and y of the facets that the map relates are in projection at most
+   delta <= k apart. The margin of the edge is known on the wall if
    (a) the facets of P that face the laser as the wall does, and that N meets, are all on the wall,
        and contain N in projection;
    (b) a plane separates Q, in front, from P;
@@ -26,8 +24,7 @@
    If the point of (f) is visible, then, as in face_margin.c, the facets hide y in N if and only if
    its projection lies in K', and the true shapes hide x if and only if its projection lies in K:
    by (b) whether Q hides either depends on projections alone, and by (c) and (e) no other part
-   hides anything there. P hides none of its own: its wall is convex where the laser sees its
-   outside; where it sees the inside, (c) keeps the rims of P away. If the point is hidden, it is
+   hides anything there; P is convex, and hides none of its front. If the point is hidden, it is
    hidden by a part other than Q, and so is all of N, in truth and for the facets.
 
    If it is visible, what the true shapes leave visible of the wall exceeds what the facets leave by
@@ -67,25 +64,9 @@ struct lrcsi_wall_share {
 
 /* --- facets of a wall ------------------------------------------------------------------------- */
 
-/* Is (1) excluded on a round wall, where points are aligned, for all parts that are neither in front
-   of a facet's part nor behind it? */
-static int is_apart_if_aligned(lrcsi_event_bands *bands, uint32_t facet)
-{
-    const lrcs_prepared *p = bands->view->prepared;
-    const lrcsi_part_set near = p->proximity.near[facet];
-    int apart = 1;
-    for (uint32_t i = 0; i < p->scene->part_count && apart && near != 0; i++) {
-        double unproved = 0;
-        apart = (near & lrcsi_part_set_of(i)) == 0 || i == p->scene->facet_part[facet] ||
-                (lrcsi_part_is_separated(&bands->orders, facet, i, &unproved) && unproved == 0);
-    }
-    return apart;
-}
-
-/* Is (1) excluded for the points of a facet of a straight wall that are in N? A facet of another
-   part within the slack of such a point is, in projection, within the slack of N. */
-static int is_apart_if_mapped(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                              uint32_t facet)
+/* Is (1) excluded for the points of a facet that are in N? A facet of another part within the slack
+   of such a point is, in projection, within the slack of N. */
+static int facet_is_apart(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
@@ -106,15 +87,7 @@ static int is_apart_if_mapped(const lrcsi_wall_margins *job, const lrcsi_edge_ma
     return apart;
 }
 
-static int facet_is_apart(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
-{
-    return lrcsi_proximity_on_round_wall(job->bands->view->prepared, facet)
-               ? is_apart_if_aligned(job->bands, facet)
-               : is_apart_if_mapped(job, m, facet);
-}
-
-/* May a facet have margins? It is not seen edge-on to within rounding, and on a wall of which the
-   correspondence of points is known. */
+/* May a facet have margins? It is on a straight wall, and not seen edge-on to within rounding. */
 static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
 {
     const lrcsi_view *view = job->bands->view;
@@ -124,7 +97,7 @@ static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
     lrcsi_wall_patch at;
     return part->rigid && part->bounds.reach > 0 && !p->skip[facet] &&
            lrcsi_view_casts(view, facet) && lrcsi_view_reflects(view, facet) &&
-           (lrcsi_proximity_on_round_wall(p, facet) || lrcsi_proximity_closed(p, index)) &&
+           lrcsi_proximity_closed(p, index) && !lrcsi_proximity_on_round_wall(p, facet) &&
            fabs(lrcsi_view_incidence(view, facet).cos_theta) >
                p->proximity.grazing_cos[index] + LRCSI_VIEW_COS_ERR &&
            lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at);
@@ -199,11 +172,9 @@ static int share_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     double unproved = 0;
+    const lrcsi_displacement displacement = lrcsi_proximity_displacement(p, facet);
     *share = (lrcsi_wall_share){.facet = facet};
-    if (!lrcsi_proximity_on_round_wall(p, facet)) {
-        const lrcsi_displacement displacement = lrcsi_proximity_displacement(p, facet);
-        share->lateral = lrcsi_displacement_across(&displacement, view->unit);
-    }
+    share->lateral = lrcsi_displacement_across(&displacement, view->unit);
     if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
         !(share->lateral <= m->outline->k) ||
         !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved) ||

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Curved walls behind the outlines of true curved shapes and of their facets: in the margins along
+/* Straight walls behind the outlines of true curved shapes and of their facets: in the margins along
    event edges where nothing else is near, how much more of each facet of a wall the true shapes
    leave visible than the facets do. */
 #ifndef LRCSI_WALL_MARGIN_H
@@ -14,8 +14,7 @@ typedef struct lrcsi_wall_margin {
     double area;           /* what the true shapes leave visible, less what their facets leave */
     double size;           /* bound on the area in the margins: F may vary over it */
     double loose;          /* bound on the error of the area */
-    double gain, loss;     /* the fractions of lrcsi_proximity_band without these margins; set only
-                              on straight walls */
+    double gain, loss;     /* the fractions of lrcsi_proximity_band beside these margins */
     lrcsi_part_set causes; /* the parts of these fractions */
 } lrcsi_wall_margin;
 
