@@ -37,8 +37,8 @@ static inline const lrcsi_round_terms *lrcsi_areas_round_terms(const lrcsi_areas
                                                                  : NULL;
 }
 
-/* What is to be added to the visible area of a facet because of margins between the outlines of true
-   shapes and of their facets. */
+/* What is to be added to the visible area of a facet because of margins between the outlines of
+   true shapes and of their facets. */
 static inline double lrcsi_areas_margin(const lrcsi_areas *areas, const lrcsi_view *view,
                                         uint32_t facet)
 {

@@ -209,8 +209,8 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
     lrcsi_total_record(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
 }
 
-/* Adds sigma of the margins on a facet, and of those of the face that it represents. The true reflectance differs
-   from the facet's within the tessellation error. */
+/* Adds sigma of the margins on a facet, and of those of the face that it represents. The true
+   reflectance differs from the facet's within the tessellation error. */
 static void add_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
     const double area = lrcsi_areas_margin(run->areas, run->view, facet);

@@ -66,8 +66,9 @@ typedef struct lrcsi_round_sector {
 int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
                             lrcsi_round_sector *sector);
 
-/* A margin, or a part of it: the integral of G over it, positive where the arc is outside the sector; a bound on the
-   size of that integral over any part of it; and bounds on its width and area. */
+/* A margin, or a part of it: the integral of G over it, positive where the arc is outside the
+   sector; a bound on the size of that integral over any part of it; and bounds on its width and
+   area. */
 typedef struct lrcsi_round_margin {
     lrcsi_round_sum sum;
     double largest, width, area;

@@ -73,14 +73,14 @@
 
    On a straight wall the sum may include the margins of other parts' event edges
    (visibility/proximity/wall_margin.c): the area by which the true shapes leave more visible in
-   them is attributed to the facets of the wall, A to this one, and A F_i is added to M. Then g and l
-   are the fractions of the other bands, and T - M has one more term: the integral of F over the
+   them is attributed to the facets of the wall, A to this one, and A F_i is added to M. Then g and
+   l are the fractions of the other bands, and T - M has one more term: the integral of F over the
    margins, less A F_i for each facet, where F is that of a patch next to the facet's. Let D be a
    bound on the area in the margins, and E one on the error of A, both divided by the facet's
-   projected area. The term is at most (1 + a) S (D sup |F - F_i| + E sup F), sup over these patches,
-   and S D F_i a for the stretch; with l in place of F_i, also S D sup |l - F_i|. Together with M, the
-   bound (1 + a) S sup F is increased by the size of A F_i. Of a facet that the sum leaves out, D sup
-   F is an error instead.
+   projected area. The term is at most (1 + a) S (D sup |F - F_i| + E sup F), sup over these
+   patches, and S D F_i a for the stretch; with l in place of F_i, also S D sup |l - F_i|. Together
+   with M, the bound (1 + a) S sup F is increased by the size of A F_i. Of a facet that the sum
+   leaves out, D sup F is an error instead.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
@@ -168,8 +168,8 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
                                 either + value * band->loss_aligned[facet], 0, 0, 0};
 }
 
-/* The error of the margins on a facet of a straight wall, per unit of its area. F in them is that of
-   a patch next to the facet's (visibility/proximity/wall_margin.c): its normals turn from the
+/* The error of the margins on a facet of a straight wall, per unit of its area. F in them is that
+   of a patch next to the facet's (visibility/proximity/wall_margin.c): its normals turn from the
    facet's by at most 3 `turn`. Where the sum does not include them, all that they add is an error.
  */
 static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,

@@ -386,8 +386,9 @@ static void margin_finish(lrcsi_proximity_band *band, uint32_t facet)
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   4. what the margins on a wall leave; mismatch, gain, loss and rows are limited to 1. gain_aligned and loss_aligned may exceed it:
-      their users compare the areas that they stand for with the facet's. */
+   4. what margins on walls leave; mismatch, gain, loss and rows are limited to 1. gain_aligned and
+      loss_aligned may exceed it: their users compare the areas that they stand for with the
+      facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Decides which event edges have margins over one straight wall alone, and adds the areas of these
-   to the facets that they meet. What that adds to sigma is decided in integrate/wall/tessellation.c.
-   Terms and conditions are those of visibility/proximity/proximity_band.c; K, K' and k those of
-   visibility/proximity/outline.h; w, N, (c) and (d) those of visibility/proximity/face_margin.c.
+   to the facets that they meet. What that adds to sigma is decided in
+   integrate/wall/tessellation.c. Terms and conditions are those of
+   visibility/proximity/proximity_band.c; K, K' and k those of visibility/proximity/outline.h; w, N,
+   (c) and (d) those of visibility/proximity/face_margin.c.
 
    P is a closed part with a straight wall (a cylinder, cone or frustum), Q another part with an
-   outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in projection.
-   The points x of the true wall and y of the facets that the map relates are in projection at most
-   delta <= k apart. The margin of the edge is known on the wall if
+   outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in
+   projection. The points x of the true wall and y of the facets that the map relates are in
+   projection at most delta <= k apart. The margin of the edge is known on the wall if
    (a) the facets of P that face the laser as the wall does, and that N meets, are all on the wall,
        and contain N in projection;
    (b) a plane separates Q, in front, from P;
@@ -15,8 +16,8 @@
        part is behind P; for P itself the slack is two reaches;
    (d) of Q, only two other event edges meet N, as in face_margin.c;
    (e) at these facets, (1) holds for no part that is neither in front of P nor behind it;
-   (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet of
-       the wall there is visible.
+   (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet
+       of the wall there is visible.
    (a) holds if N meets no other facet across the sides of those facets: N is convex, and a straight
    line from a point of it that such a facet contains to one that none contains would cross a side
    beyond which there is none.
@@ -28,8 +29,8 @@
    hidden by a part other than Q, and so is all of N, in truth and for the facets.
 
    If it is visible, what the true shapes leave visible of the wall exceeds what the facets leave by
-   the points y in K' and not in K, less those in K and not in K'; and by those that are in K where x
-   is not, less the reverse. The first are a margin along the edge, of which t0 <= t <= t1 is
+   the points y in K' and not in K, less those in K and not in K'; and by those that are in K where
+   x is not, less the reverse. The first are a margin along the edge, of which t0 <= t <= t1 is
    attributed to the facet that contains that part of the edge: its signed area follows from
    visibility/proximity/outline.c, 3. The second are within sqrt(2) delta of the boundary of K in
    depth: of each facet no more than that times the length of the edge along which the facet is
@@ -113,7 +114,8 @@ static int is_next_to(const lrcsi_wall_patch *a, const lrcsi_wall_patch *b, uint
 
 /* --- the facets that a margin meets ----------------------------------------------------------- */
 
-/* Limits a range of t, where a function that is linear from `first` to `last` is at most `limit`. */
+/* Limits a range of t, where a function that is linear from `first` to `last` is at most `limit`.
+   */
 static void range_limit(double range[2], double first, double last, double limit)
 {
     if (first > limit && last > limit) {
@@ -197,7 +199,8 @@ static int share_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
     return box.has_sides;
 }
 
-/* Finds all facets that N meets, from one of them on. Returns 0 if (a), (b) or (e) does not hold. */
+/* Finds all facets that N meets, from one of them on. Returns 0 if (a), (b) or (e) does not hold.
+   */
 static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
 {
     const lrcsi_view *view = job->bands->view;
@@ -263,7 +266,7 @@ static int shares_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_marg
 /* --- is the wall visible beside the edge? ----------------------------------------------------- */
 
 /* Makes the grid for queries, if there is memory for it. */
-static void facets_make(lrcsi_wall_margins *job)
+static void wall_facets_make(lrcsi_wall_margins *job)
 {
     const lrcs_scene *scene = job->bands->view->prepared->scene;
     lrcsi_classification *c = job->classification;
@@ -300,14 +303,14 @@ static int facet_point(const lrcsi_view *view, uint32_t facet, const double x[2]
 }
 
 /* (f): an answer of visibility/uniform/query.h for a point half of w beyond the edge. */
-static int margin_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
     double longest = 0;
     double t = 0.5;
     double x[2];
     if (!job->facets_tried) {
-        facets_make(job);
+        wall_facets_make(job);
     }
     for (uint32_t i = 0; i < job->shares; i++) {
         const lrcsi_wall_share *share = &job->share[i];
@@ -388,7 +391,7 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
         !shares_are_local(job, &m) || !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
         return 0;
     }
-    const int visibility = margin_visibility(job, &m);
+    const int visibility = wall_visibility(job, &m);
     return visibility == LRCSI_QUERY_HIDDEN ||
            (visibility == LRCSI_QUERY_VISIBLE && shares_add(job, &m, turn));
 }
