@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/* The margins along the event edges of a ball in front of the straight wall of a cylinder, cone or
+   frustum: their signed area against the circle of the true ball; and that no margin is known where
+   one of the conditions of wall_margin.c does not hold. */
+#include "visibility/proximity/proximity_band.h"
+
+#include "recipe.h"
+
+static lrcs_scene scene;
+static lrcs_work work;
+static lrcsi_view view;
+static lrcsi_classification classification;
+static lrcsi_event_bands bands; /* for the event edges of the ball */
+static lrcsi_proximity_band band;
+
+enum { WALL, BALL };
+
+static lrcs_recipe_material paint = {.name = "paint", .brdf = {0, 1, 1, 0}};
+static const lrcs_shape cylinder = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 3};
+static const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE, .radius = 1.5, .length = 4};
+static const lrcs_shape frustum = {
+    .kind = LRCS_SHAPE_FRUSTUM, .radius = 1.2, .radius2 = 0.8, .length = 3};
+
+static lrcs_recipe_part part_at(lrcs_shape shape, double x, double y, double z)
+{
+    lrcs_recipe_part part = {.name = "", .material = "paint", .shape = shape};
+    part.place = lrcs_place_default();
+    part.place.translate[0] = x;
+    part.place.translate[1] = y;
+    part.place.translate[2] = z;
+    return part;
+}
+
+static lrcs_recipe_part ball_at(double radius, double x, double y, double z)
+{
+    return part_at((lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = radius}, x, y, z);
+}
+
+/* The band of a scene of parts, divided for this tolerance, as far as so many steps lead. */
+static void find_margins_within(lrcs_recipe_part *part, uint32_t count, double tolerance,
+                                const double d[3], uint64_t steps)
+{
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = count, .material = &paint, .material_count = 1};
+    const lrcs_build_options build = {tolerance, 1u << 16, LRCS_NORMALS_FLAT, 0, 0, NULL};
+    const lrcs_prepared *prepared = recipe_prepare(&recipe, NULL, &build, &scene, &work);
+    lrcsi_meter meter = {.limit = steps};
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_event_bands_make(&view, NULL, &work, &bands), LRCS_OK);
+    assert_int_equal(lrcsi_proximity_band_make(&classification, &meter, &work, &band), LRCS_OK);
+}
+
+static void find_margins(lrcs_recipe_part *part, uint32_t count, double tolerance,
+                         const double d[3])
+{
+    find_margins_within(part, count, tolerance, d, UINT64_MAX);
+}
+
+/* The sums over the facets of the wall; gain and loss as areas in projection. */
+typedef struct wall_sums {
+    double area, size, loose, gain, loss, all_gain, all_loss;
+    int facets; /* with margins */
+} wall_sums;
+
+static wall_sums sum_of_wall(void)
+{
+    wall_sums sum = {.area = 0};
+    for (uint32_t f = 0; f < scene.facet_count; f++) {
+        const lrcsi_wall_margin *margin = &band.margin[f];
+        const double projected = lrcsi_view_projected(&view, f);
+        if (scene.facet_part[f] == WALL && view.facing[f] > 0) {
+            sum.area += margin->area;
+            sum.size += margin->size;
+            sum.loose += margin->loose;
+            sum.gain += margin->gain * projected;
+            sum.loss += margin->loss * projected;
+            sum.all_gain += band.gain[f] * projected;
+            sum.all_loss += band.loss[f] * projected;
+            sum.facets += margin->size > 0;
+        }
+    }
+    return sum;
+}
+
+/* The area between the polygon that the ball's event edges form and the circle of the true ball. */
+static double polygon_beyond_circle(double radius)
+{
+    double twice = 0;
+    const double zero[3] = {0, 0, 0};
+    double centre[3];
+    lrcsi_view_coordinates(&view, zero, centre);
+    for (uint32_t i = 0; i < bands.events.count; i++) {
+        if (bands.events.part[i] == BALL) {
+            const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[i]];
+            const double *a = view.point[edge->low].x;
+            const double *b = view.point[edge->high].x;
+            twice += bands.events.side[i] * ((a[0] - centre[0]) * (b[1] - centre[1]) -
+                                             (a[1] - centre[1]) * (b[0] - centre[0]));
+        }
+    }
+    const double scaled = ldexp(radius, -view.prepared->exponent);
+    return 0.5 * twice - LRCS_PI * scaled * scaled;
+}
+
+static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
+{
+    (void)state;
+    const lrcs_shape *const walls[3] = {&cylinder, &cone, &frustum};
+    static const double from[3][3] = {{1, 0.02, 0.1}, {1, 0.2, -0.3}, {1, -0.1, 0.5}};
+    for (int i = 0; i < 9; i++) {
+        const double *d = from[i / 3];
+        const double tolerance = i % 2 ? 1e-3 : 1e-4;
+        lrcs_recipe_part part[2] = {part_at(*walls[i % 3], 0, 0, 0),
+                                    ball_at(0.3, 2, 2 * d[1], 1.2 + 2 * d[2])};
+        find_margins(part, 2, tolerance, d);
+        const wall_sums sum = sum_of_wall();
+        assert_true(sum.facets > 4);
+        const double want = polygon_beyond_circle(0.3);
+        const double other = sum.gain + sum.loss; /* edges of which no margin is known */
+        check_abs(sum.area, want, sum.loose + other);
+        check_abs(sum.area, want, 0.02 * fabs(want) + other); /* displacements cancel */
+        check_most(fabs(sum.area), sum.size);
+        check_most(sum.loose, 0.75 * (sum.all_gain + sum.all_loss));
+        check_most(other, 0.1 * (sum.all_gain + sum.all_loss));
+    }
+}
+
+/* (a): where the outline of the ball crosses the limb of the wall, its edges there have bands. */
+static void edges_across_the_limb_have_bands(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0, 0};
+    lrcs_recipe_part part[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 2, 0.9, 1.5)};
+    find_margins(part, 2, 1e-3, d);
+    const wall_sums sum = sum_of_wall();
+    assert_true(sum.facets > 4 && sum.gain + sum.loss > 1e-3 * (sum.all_gain + sum.all_loss));
+    for (uint32_t f = 0; f < scene.facet_count; f++) {
+        double beside = 0; /* the largest |y| of its corners */
+        for (int k = 0; k < 3; k++) {
+            beside = fmax(beside, fabs(lrcsi_prepared_corner(view.prepared, f, k)[1]));
+        }
+        if (scene.facet_part[f] == WALL && ldexp(beside, view.prepared->exponent) > 0.9999) {
+            assert_true(band.margin[f].size == 0);
+        }
+    }
+}
+
+/* (c): a second ball whose outline crosses that of the first one; (b): a ball that meets the wall.
+ */
+static void no_margin_is_known_without_the_conditions(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0.1, 0.2};
+    lrcs_recipe_part two[3] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 2, 0.2, 1.6),
+                               ball_at(0.3, 2, 0.5, 1.6)};
+    find_margins(two, 3, 1e-3, d);
+    wall_sums sum = sum_of_wall();
+    assert_true(sum.facets > 4 && sum.gain + sum.loss > 1e-3 * (sum.all_gain + sum.all_loss));
+    lrcs_recipe_part meeting[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 1.1, 0, 1.5)};
+    find_margins(meeting, 2, 1e-3, d);
+    sum = sum_of_wall();
+    assert_true(sum.facets == 0 && sum.all_gain > 0);
+    check_most(sum.all_gain + sum.all_loss, (sum.gain + sum.loss) * (1 + 1e-6));
+}
+
+/* (f): behind a plate that hides all of the ball, nothing of the wall is gained or lost. */
+static void hidden_margins_add_nothing(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0, 0};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_BOX, .size = {0.1, 20, 20}};
+    lrcs_recipe_part part[3] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 2, 0, 1.5),
+                                part_at(plate, 4, 0, -5)};
+    find_margins(part, 3, 1e-3, d);
+    const wall_sums sum = sum_of_wall();
+    assert_true(sum.facets == 0 && sum.area == 0 && sum.loose == 0);
+}
+
+/* Whatever the number of steps: where a margin is not known, its bands are. */
+static void without_steps_there_are_bands(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0.02, 0.1};
+    lrcs_recipe_part part[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 2, 0.04, 1.4)};
+    int with = 0;
+    int without = 0;
+    for (uint64_t steps = 16; steps < 1u << 20; steps *= 2) {
+        find_margins_within(part, 2, 1e-2, d, steps);
+        const wall_sums sum = sum_of_wall();
+        const double all = sum.all_gain + sum.all_loss;
+        const int known = sum.facets > 0;
+        assert_true(isfinite(all) && all > 0);
+        assert_true(known || sum.gain + sum.loss > 0.5 * all);
+        with += known;
+        without += !known;
+    }
+    assert_true(with > 0 && without > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
+        cmocka_unit_test(edges_across_the_limb_have_bands),
+        cmocka_unit_test(no_margin_is_known_without_the_conditions),
+        cmocka_unit_test(hidden_margins_add_nothing),
+        cmocka_unit_test(without_steps_there_are_bands),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
