@@ -182,7 +182,9 @@ static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     const lrcsi_deviation f =
         lrcsi_deviation_make(brdf, fabs(incidence->cos_theta), incidence->tan2, &around);
     const double most = fmax(f.value_max, at->deviation.of_f.value);
-    const double varies = f.point + fabs(at->deviation.of_f.value - f.value);
+    const lrcsi_patch *patch = at->deviation.patch; /* F_i is its mean, `value` at most larger */
+    const double mean_err = patch ? patch->remainder + patch->rounding : 0;
+    const double varies = f.point + fabs(at->deviation.of_f.value - f.value) + mean_err;
     const int included = in->visible[at->facet].high > 0;
     const double known = included ? varies + at->area_err * most : most;
     return (1 + at->area_err) * (known * margin->size + most * margin->loose) /

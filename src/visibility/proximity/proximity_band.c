@@ -361,8 +361,9 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
-    need = lrcsi_work_add(need, lrcsi_face_margins_need(p));
-    need = lrcsi_work_add(need, lrcsi_wall_margins_need(p));
+    const size_t faces = lrcsi_face_margins_need(p); /* released before walls take memory */
+    const size_t walls = lrcsi_wall_margins_need(p);
+    need = lrcsi_work_add(need, faces > walls ? faces : walls);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_margin)));
     const size_t events = lrcsi_proximity_events_most(p);
     need = lrcsi_work_add(need, lrcsi_work_bytes(events, sizeof(lrcsi_edge_faces)));

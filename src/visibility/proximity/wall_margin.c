@@ -9,8 +9,8 @@
    outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in
    projection. The points x of the true wall and y of the facets that the map relates are in
    projection at most delta <= k apart. The margin of the edge is known on the wall if
-   (a) the facets of P that face the laser as the wall does, and that N meets, are all on the wall,
-       and contain N in projection;
+   (a) the facets of P that face the laser and that N meets are all on the wall, and contain N in
+       projection;
    (b) a plane separates Q, in front, from P;
    (c) no event edge of a part other than Q comes within its slack of N in projection, unless its
        part is behind P; for P itself the slack is two reaches;
@@ -51,7 +51,7 @@
 #include "visibility/uniform/query.h"
 
 /* An edge whose margin meets more facets is not used: heuristic. */
-#define MAX_SHARES 1024u
+#define SHARES_MAX 1024u
 
 struct lrcsi_wall_share {
     uint32_t facet;
@@ -62,6 +62,11 @@ struct lrcsi_wall_share {
     double outer[2];  /* the same, enlarged by errors */
     double uncertain; /* the fraction of the edge that may belong to it or not */
 };
+
+static uint32_t shares_most(const lrcs_prepared *p)
+{
+    return p->scene->facet_count < SHARES_MAX ? p->scene->facet_count : SHARES_MAX;
+}
 
 /* --- facets of a wall ------------------------------------------------------------------------- */
 
@@ -96,10 +101,10 @@ static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
     const uint32_t index = p->scene->facet_part[facet];
     const lrcs_part *part = &p->scene->part[index];
     lrcsi_wall_patch at;
-    return part->rigid && part->bounds.reach > 0 && !p->skip[facet] &&
-           lrcsi_view_casts(view, facet) && lrcsi_view_reflects(view, facet) &&
-           lrcsi_proximity_closed(p, index) && !lrcsi_proximity_on_round_wall(p, facet) &&
-           fabs(lrcsi_view_incidence(view, facet).cos_theta) >
+    return part->rigid && part->bounds.reach > 0 && !p->skip[facet] && view->facing[facet] > 0 &&
+           lrcsi_view_casts(view, facet) && lrcsi_proximity_closed(p, index) &&
+           !lrcsi_proximity_on_round_wall(p, facet) &&
+           lrcsi_view_incidence(view, facet).cos_theta >
                p->proximity.grazing_cos[index] + LRCSI_VIEW_COS_ERR &&
            lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at);
 }
@@ -146,7 +151,7 @@ static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
         for (int i = 0; i < 2; i++) {
             const double *x = i == 0 ? m->a : m->b;
             const double cross = side[0] * (x[1] - p[1]) - side[1] * (x[0] - p[0]);
-            height[i] = length > 0 ? -view->facing[share->facet] * cross / length : HUGE_VAL;
+            height[i] = length > 0 ? -cross / length : HUGE_VAL;
         }
         range_limit(in, height[0], height[1], 0);
         range_limit(inner, height[0], height[1], -err);
@@ -205,7 +210,6 @@ static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    const int facing = view->facing[facet];
     lrcsi_marks_clear(&job->reached, p->scene->facet_count);
     job->reached.entry[facet] = job->reached.number;
     job->shares = 0;
@@ -226,15 +230,14 @@ static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint
                 continue;
             }
             if (other >= p->scene->facet_count ||
-                p->scene->facet_part[other] != p->scene->facet_part[f] ||
-                view->facing[other] != facing) {
+                p->scene->facet_part[other] != p->scene->facet_part[f]) {
                 return 0;
             }
             if (lrcsi_marked(&job->reached, other)) {
                 continue;
             }
             job->reached.entry[other] = job->reached.number;
-            if (job->shares == MAX_SHARES ||
+            if (job->shares == shares_most(p) ||
                 !share_make(job, m, other, &job->share[job->shares++])) {
                 return 0;
             }
@@ -398,15 +401,13 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
 
 int lrcsi_wall_margins_hold(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
 {
-    const lrcsi_view *view = job->bands->view;
-    const uint32_t part = view->prepared->scene->facet_part[facet];
-    const int facing = view->facing[facet];
+    const uint32_t part = job->bands->view->prepared->scene->facet_part[facet];
     lrcsi_wall_event *at = &job->event[event];
     if (!facet_applies(job, facet)) {
         return 0;
     }
-    if (at->part != part || at->facing != facing) {
-        *at = (lrcsi_wall_event){part, facing, event_examine(job, facet, event)};
+    if (at->part != part) {
+        *at = (lrcsi_wall_event){part, event_examine(job, facet, event)};
     }
     return at->known;
 }
@@ -415,7 +416,7 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
 {
     const size_t facets = p->scene->facet_count;
     size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(MAX_SHARES, sizeof(lrcsi_wall_share)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(shares_most(p), sizeof(lrcsi_wall_share)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
@@ -430,7 +431,7 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     *job = (lrcsi_wall_margins){
         .bands = bands, .classification = classification, .work = work, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
-    job->share = lrcsi_work_take(work, MAX_SHARES, sizeof *job->share);
+    job->share = lrcsi_work_take(work, shares_most(bands->view->prepared), sizeof *job->share);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
@@ -440,7 +441,7 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {
-        job->event[i] = (lrcsi_wall_event){LRCS_NONE, 0, 0};
+        job->event[i] = (lrcsi_wall_event){LRCS_NONE, 0};
     }
     for (uint32_t f = 0; f < facets; f++) {
         margin[f] = (lrcsi_wall_margin){.area = 0};

@@ -21,7 +21,6 @@ typedef struct lrcsi_wall_margin {
 /* What is known of an event edge over a wall. */
 typedef struct lrcsi_wall_event {
     uint32_t part; /* whose wall was examined last; LRCS_NONE: none was */
-    int facing;    /* the side of that wall */
     int known;     /* 1: its margins there are */
 } lrcsi_wall_event;
 
