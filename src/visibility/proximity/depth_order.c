@@ -45,13 +45,11 @@ static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const d
                                body->curved ? lrcsi_body_slab(body, height) : 0};
 }
 
-/* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on the side
-   that does not face away from the laser. */
-static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
-                      const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
+/* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on one of its
+   sides, which does not face away from the laser. */
+static void side_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
+                     const lrcsi_body *own, const double n[3], lrcsi_depth_order *order)
 {
-    double sign = lrcsi_vec3_dot(axis, d) < 0 ? -1 : 1;
-    const double n[3] = {sign * axis[0], sign * axis[1], sign * axis[2]};
     lrcsi_gap gap = lrcsi_gap_make(front, back, d, n, 1);
     if (gap.separates) {
         order->front_is_free = order->back_by_outline = proof_make(front, 1, n, -HUGE_VAL, 0);
@@ -62,6 +60,21 @@ static void order_try(const lrcsi_body *front, const lrcsi_body *back, const dou
     if (gap.is_zero && has_slab(back, own == back)) {
         double high = lrcsi_body_support_all(back, n);
         order->back_by_outline = proof_make(back, -1, n, gap.height - high, gap.height);
+    }
+}
+
+/* Tries the side of such a plane that faces the laser; both if the plane contains d, to within
+   rounding. */
+static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
+                      const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
+{
+    const double opposite[3] = {-axis[0], -axis[1], -axis[2]};
+    const double cosine = lrcsi_vec3_dot(axis, d);
+    if (cosine >= -8 * LRCSI_U) {
+        side_try(front, back, d, own, axis, order);
+    }
+    if (cosine <= 8 * LRCSI_U) {
+        side_try(front, back, d, own, opposite, order);
     }
 }
 
