@@ -20,6 +20,13 @@ typedef struct order_case {
 static const order_case order_cases[] = {
     {&post, &drum, {0, 0, -1}, {0.1, 0.2, 1}, 1, 0}, /* it stands there */
     {&post, &drum, {0, 0, -1}, {0.1, 0.2, -1}, 0, 1},
+    {&post,
+     &drum,
+     {0, 0, -1},
+     {1, 0.2, 0},
+     1,
+     1}, /* seen edge-on, the plane between hides nothing */
+    {&post, &drum, {0, 0, -2}, {1, 0.2, 0}, 1, 1},
     {&post, &drum, {0, 0, -0.999}, {0.1, 0.2, 1}, 0, 0}, /* it is sunk in */
     {&post, &drum, {0.75, 0, -1}, {1, 0.2, 0.1}, 1, 0},  /* their walls meet */
     {&post, &drum, {0, 0, -2}, {0.1, 0.2, 1}, 1, 0},
