@@ -128,6 +128,27 @@ static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
     }
 }
 
+/* The back of a closed wall is never seen, also where its material is two-sided and an open part
+   keeps the scene from being solid: no margin counts twice. */
+static void two_sided_walls_have_the_same_margins(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0.02, 0.1};
+    const lrcs_shape bowl = {.kind = LRCS_SHAPE_DOME, .radius = 0.1, .parts = LRCS_SHAPE_WALL};
+    wall_sums sum[2];
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        lrcs_recipe_part part[3] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 2, 0.04, 1.4),
+                                    part_at(bowl, 0, 0, 9)};
+        paint.two_sided = two_sided;
+        find_margins(part, 3, 1e-3, d);
+        sum[two_sided] = sum_of_wall();
+    }
+    paint.two_sided = 0;
+    assert_true(sum[0].facets > 4 && sum[0].area != 0);
+    check_abs(sum[1].area, sum[0].area, 1e-9 * fabs(sum[0].area));
+    check_abs(sum[1].size, sum[0].size, 1e-9 * sum[0].size);
+}
+
 /* (a): where the outline of the ball crosses the limb of the wall, its edges there have bands. */
 static void edges_across_the_limb_have_bands(void **state)
 {
@@ -204,6 +225,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
+        cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
         cmocka_unit_test(no_margin_is_known_without_the_conditions),
         cmocka_unit_test(hidden_margins_add_nothing),

@@ -51,7 +51,7 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
                                                const lrcsi_masked_band *band, int margins)
 {
     double error = incidence->error + 8 * LRCSI_U;
-    lrcsi_patch_fractions f = {0, 0, 0, 1, 0};
+    lrcsi_patch_fractions f = {0, 0, 0, 1, 0, 0};
     if (!band) {
         return f;
     }
@@ -65,9 +65,11 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
     f.gain = fmin(less ? margin->gain : lrcsi_masked_gain(band, facet), f.hidden);
     f.loss = fmin(less ? margin->loss : lrcsi_masked_loss(band, facet), visible_most);
     f.visible = fmin(1, visible_most + fmin(lrcsi_masked_gain(band, facet), f.hidden));
-    f.margins = margins ? fabs(lrcsi_straight_margin_area(band, visible, facet)) /
-                              incidence->projected * (1 + error)
-                        : 0;
+    if (margins && lrcsi_straight_margin(band, facet)) {
+        const double unit = (1 + 2 * error) / incidence->projected;
+        f.margins = fabs(lrcsi_straight_margin_area(band, visible, facet)) * unit;
+        f.margin_size = margin->size * unit;
+    }
     return f;
 }
 

@@ -20,11 +20,12 @@ enum lrcsi_patch_state {
 
 /* Upper bounds of fractions of a facet: */
 typedef struct lrcsi_patch_fractions {
-    double hidden;     /* hidden, or not known to be visible, by facets */
-    double gain, loss; /* as in lrcsi_masked_band; only what is hidden may be gained, and only
+    double hidden;      /* hidden, or not known to be visible, by facets */
+    double gain, loss;  /* as in lrcsi_masked_band; only what is hidden may be gained, and only
                           what is visible lost */
-    double visible;    /* visible on the true surface */
-    double margins;    /* the size of the area that the sum adds because of margins */
+    double visible;     /* visible on the true surface */
+    double margins;     /* the size of the area that the sum adds because of margins */
+    double margin_size; /* lrcsi_wall_margin */
 } lrcsi_patch_fractions;
 
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts

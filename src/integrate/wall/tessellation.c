@@ -258,7 +258,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
                            .state = state,
                            .partner = partner,
                            .pair = {*incidence, *incidence},
-                           .fractions = {0, 0, 0, 1, 0}};
+                           .fractions = {0, 0, 0, 1, 0, 0}};
     if (state == LRCSI_PATCH_AWAY) {
         at.deviation.of_f =
             lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &bounds);
@@ -277,7 +277,6 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
             uint32_t other = facet == first;
             at.pair[other] = lrcsi_view_incidence(view, first + other);
         }
-        at.margin_size = margin ? margin->size / incidence->projected : 0;
         unit = lrcsi_wall_error(in, &at);
     }
     if (margin && state != LRCSI_PATCH_AWAY) {

@@ -285,6 +285,14 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
          !correction_make(in, at, lrcsi_patch_partner(p, at->facet), &linear, &other))) {
         return 0;
     }
+    own.error += (1 + a) * linear.variation * at->fractions.margin_size;
+    if (together) {
+        const uint32_t partner = lrcsi_patch_partner(p, at->facet);
+        const lrcsi_patch_fractions f =
+            lrcsi_patch_fractions_of(&at->pair[partner - lrcsi_patch_sector(p, partner)], partner,
+                                     in->visible, in->band, in->margins);
+        other.error += (1 + a) * linear.variation * f.margin_size;
+    }
     lrcsi_deviation deviation = linear_deviation(&at->deviation.of_f, a, &linear, patch);
     lrcsi_deviation both = linear_deviation(&sector->deviation, a, &linear, patch);
     sector_bound choice = {BY_POINT, 1, 0};
@@ -297,7 +305,6 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
         choice.method = by_region < by_point ? BY_REGION : BY_POINT;
     }
     *error = error_by(&at->fractions, a, at->state, at->partner, &deviation, stretch, &choice);
-    own.error += (1 + a) * linear.variation * at->margin_size;
     error->above += own.error;
     error->below += own.error;
     error->glint = own.glint;

@@ -66,7 +66,6 @@ typedef struct lrcsi_wall_facet {
     lrcsi_patch_fractions fractions; /* if the facet is hidden, gain and loss include what may be
                                         visible of it */
     lrcsi_patch_deviation deviation;
-    double margin_size; /* lrcsi_wall_margin, as a fraction of the facet; 0 without margins */
 } lrcsi_wall_facet;
 
 /* The error of such a facet per unit of its area, and its correction. If both facets of the sector

@@ -37,8 +37,10 @@
    near. Beyond the ends of the edge, points are attributed as in face_margin.c.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
-   So F there is that of a patch within one row and one sector of it: this is tested for all facets
-   that the margin meets. */
+   It is tested that these are within one row and one sector of it, so that F of their patches is
+   not far from its own. On another facet the same area in projection stands for cos / cos' times as
+   much of the wall as on its own: where the margin may be on it, F sup |cos / cos' - 1| is an
+   error, twice if F differs as well. */
 #include "visibility/proximity/wall_margin.h"
 
 #include <math.h>
@@ -52,6 +54,9 @@
 
 /* An edge whose margin meets more facets is not used: heuristic. */
 #define SHARES_MAX 1024u
+/* Nor one whose margin may be on facets that are so much more oblique than those to which it is
+   attributed. */
+#define STEEPER_MAX 1.0
 
 struct lrcsi_wall_share {
     uint32_t facet;
@@ -61,6 +66,10 @@ struct lrcsi_wall_share {
     double from, to;  /* the part of the edge in the facet, as fractions; from > to: none */
     double outer[2];  /* the same, enlarged by errors */
     double uncertain; /* the fraction of the edge that may belong to it or not */
+    double steeper;   /* bound on |cos / cos' - 1|, where its part of the margin may be on another
+                         facet: cos of its own incidence angle, cos' of that facet's */
+    double elsewhere; /* the sum of this over such facets, times the length along the edge where
+                         the margin may be on them */
 };
 
 static uint32_t shares_most(const lrcs_prepared *p)
@@ -109,6 +118,14 @@ static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
            lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at);
 }
 
+/* delta of a facet. */
+static double facet_lateral(const lrcsi_wall_margins *job, uint32_t facet)
+{
+    const lrcsi_view *view = job->bands->view;
+    const lrcsi_displacement displacement = lrcsi_proximity_displacement(view->prepared, facet);
+    return lrcsi_displacement_across(&displacement, view->unit);
+}
+
 /* Are two sectors the same or next to each other? */
 static int is_next_to(const lrcsi_wall_patch *a, const lrcsi_wall_patch *b, uint32_t around)
 {
@@ -132,7 +149,8 @@ static void range_limit(double range[2], double first, double last, double limit
     }
 }
 
-/* Finds the part of the edge in a facet, between the lines of its sides. */
+/* Finds the part of the edge in a facet, between the lines of its sides. A side is no farther from
+   its line than its ends are from their computed positions. */
 static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                       lrcsi_wall_share *share)
 {
@@ -179,9 +197,7 @@ static int share_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     double unproved = 0;
-    const lrcsi_displacement displacement = lrcsi_proximity_displacement(p, facet);
-    *share = (lrcsi_wall_share){.facet = facet};
-    share->lateral = lrcsi_displacement_across(&displacement, view->unit);
+    *share = (lrcsi_wall_share){.facet = facet, .lateral = facet_lateral(job, facet)};
     if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
         !(share->lateral <= m->outline->k) ||
         !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved) ||
@@ -246,21 +262,32 @@ static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint
     return 1;
 }
 
-/* Are the patches above each part of the margin next to the facet to which it is attributed? */
+/* Are the patches above each part of the margin next to the facet to which it is attributed? Also
+   finds how much more of their area a part of the view plane stands for. */
 static int shares_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 {
-    const lrcs_scene *scene = job->bands->view->prepared->scene;
+    const lrcsi_view *view = job->bands->view;
+    const lrcs_scene *scene = view->prepared->scene;
     const uint32_t part = scene->facet_part[job->share[0].facet];
     const uint32_t around = scene->part[part].divisions.around;
     int local = lrcsi_meter_take(job->bands->meter, (uint64_t)job->shares * job->shares / 16);
     for (uint32_t i = 0; i < job->shares && local; i++) {
-        const lrcsi_wall_share *share = &job->share[i];
+        lrcsi_wall_share *share = &job->share[i];
+        const double own = lrcsi_view_incidence(view, share->facet).cos_theta;
         const double from = share->outer[0] * m->length - m->err;
         const double to = share->outer[1] * m->length + m->err;
         for (uint32_t k = 0; k < job->shares && local && share->outer[0] <= share->outer[1]; k++) {
             const lrcsi_wall_share *other = &job->share[k];
-            local = other->near[1] < from || other->near[0] > to ||
-                    is_next_to(&share->at, &other->at, around);
+            const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
+            if (k == i || !(length >= 0)) {
+                continue;
+            }
+            const double cosine = lrcsi_view_incidence(view, other->facet).cos_theta;
+            const double steeper =
+                fabs(own / cosine - 1) + 4 * LRCSI_VIEW_COS_ERR / lrcsi_min(own, cosine);
+            share->steeper = lrcsi_max(share->steeper, steeper);
+            share->elsewhere += steeper * length;
+            local = is_next_to(&share->at, &other->at, around) && steeper < STEEPER_MAX;
         }
     }
     return local;
@@ -338,8 +365,9 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 /* --- margins ---------------------------------------------------------------------------------- */
 
 /* Adds the share of a facet. Its area is known to within: the bounds of outline.c and errors of
-   positions; where the part of the edge in it ends; the points at the ends of the edge; the
-   displacement of points. */
+   positions; where the part of the edge in it ends; the points at the ends of the edge; what the
+   same area of the view plane stands for on other facets; the displacement of points. The strips
+   that displacement adds and removes have opposite signs: the larger one counts. */
 static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                       const lrcsi_outline_margin *margin, const double turn[2],
                       const lrcsi_wall_share *share)
@@ -354,10 +382,11 @@ static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
     lrcsi_wall_margin *to = &job->margin[share->facet];
     to->area += margin->area;
     to->size += depth * part * m->length * LRCSI_OUTWARD_NANO;
-    to->loose +=
-        (margin->error + 2 * m->err * margin->width + depth * share->uncertain * m->length + ends +
-         LRCSI_ROOT_2_OUTWARD * share->lateral * near) *
-        LRCSI_OUTWARD_NANO;
+    const double known =
+        margin->error + 2 * m->err * margin->width + depth * share->uncertain * m->length + ends;
+    to->loose += ((1 + share->steeper) * known + 2 * depth * share->elsewhere +
+                  LRCSI_ROOT_2_OUTWARD * share->lateral * near) *
+                 LRCSI_OUTWARD_NANO;
 }
 
 /* Adds the margins of an edge, if all of them are known. */
@@ -403,7 +432,9 @@ int lrcsi_wall_margins_hold(lrcsi_wall_margins *job, uint32_t facet, uint32_t ev
 {
     const uint32_t part = job->bands->view->prepared->scene->facet_part[facet];
     lrcsi_wall_event *at = &job->event[event];
-    if (!facet_applies(job, facet)) {
+    if (!facet_applies(job, facet) ||
+        !(facet_lateral(job, facet) <=
+          job->bands->orders.outline[job->bands->events.part[event]].k)) {
         return 0;
     }
     if (at->part != part) {

@@ -11,11 +11,13 @@
 
 /* Of a facet. Areas are in projection, scaled. */
 typedef struct lrcsi_wall_margin {
-    double area;           /* what the true shapes leave visible, less what their facets leave */
-    double size;           /* bound on the area in the margins: F may vary over it */
-    double loose;          /* bound on the error of the area */
+    double area;  /* what the true shapes leave visible, less what their facets leave */
+    double size;  /* bound on the area in the margins: F may vary over it */
+    double loose; /* bound on the error of the area, which is attributed to the facet: a part of it
+                     may be on facets next to it */
     double gain, loss;     /* the fractions of lrcsi_proximity_band beside these margins */
-    lrcsi_part_set causes; /* the parts of these fractions */
+    lrcsi_part_set causes; /* the parts of these fractions, not the casters of the margins: to
+                              divide these more finely reduces the error less */
 } lrcsi_wall_margin;
 
 /* What is known of an event edge over a wall. */
