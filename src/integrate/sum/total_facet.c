@@ -169,7 +169,7 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     const lrcsi_proximity_band *band = run->band ? run->band->whole : NULL;
     lrcsi_part_set set = band ? band->parts[facet] : 0;
     int own = 1;
-    if (run->areas->margins && lrcsi_straight_margin(run->band, facet)) {
+    if (band && run->areas->margins && lrcsi_straight_margin(run->areas->margins, facet)) {
         set = band->margin[facet].causes;
     }
     if (band && lrcsi_flat_face_uses(run->areas->face, run->view, facet)) {
