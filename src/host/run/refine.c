@@ -20,7 +20,7 @@
 /* Heuristics: the error due to a part falls by these factors with every halving (choices_start). If
    it falls less, the part is halved again; if it falls more, there are more facets than needed. */
 #define ROUND_FACTOR    0.30
-#define STRAIGHT_FACTOR 0.46
+#define STRAIGHT_FACTOR 0.48
 /* Divisions are chosen for this fraction of what the tolerance leaves for all parts together. */
 #define TOLERANCE_FRACTION 0.8
 /* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
