@@ -64,9 +64,7 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
     return box;
 }
 
-/* Limits a part of a segment to where a function that is linear along it, of the values `first` and
-   `last` at its ends, is at most `limit`. */
-static void part_limit(lrcsi_segment_part *part, double first, double last, double limit)
+void lrcsi_segment_part_limit(lrcsi_segment_part *part, double first, double last, double limit)
 {
     if (first > limit && last > limit) {
         *part = (lrcsi_segment_part){1, 0};
@@ -94,10 +92,10 @@ lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, co
         beyond[k] = box->along[0] * from_b[0] + box->along[1] * from_b[1];
     }
     lrcsi_segment_part part = {0, 1};
-    part_limit(&part, across[0], across[1], box->half_width);
-    part_limit(&part, -across[0], -across[1], box->half_width);
-    part_limit(&part, back[0], back[1], box->before);
-    part_limit(&part, beyond[0], beyond[1], box->end);
+    lrcsi_segment_part_limit(&part, across[0], across[1], box->half_width);
+    lrcsi_segment_part_limit(&part, -across[0], -across[1], box->half_width);
+    lrcsi_segment_part_limit(&part, back[0], back[1], box->before);
+    lrcsi_segment_part_limit(&part, beyond[0], beyond[1], box->end);
     return part;
 }
 

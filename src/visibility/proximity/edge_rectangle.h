@@ -42,6 +42,10 @@ static inline int lrcsi_segment_part_is_empty(lrcsi_segment_part part)
     return part.from > part.to;
 }
 
+/* Limits it to where a function that is linear along the segment, of the values `first` and `last`
+   at its ends, is at most `limit`. */
+void lrcsi_segment_part_limit(lrcsi_segment_part *part, double first, double last, double limit);
+
 /* The part of a segment between two points in view coordinates that may lie in the rectangle. */
 lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, const double p[3],
                                              const double q[3]);

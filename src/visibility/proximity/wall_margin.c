@@ -61,11 +61,11 @@
 struct lrcsi_wall_share {
     uint32_t facet;
     lrcsi_wall_patch at;
-    double lateral;   /* delta */
-    double near[2];   /* t of the facet's points near the edge, in projection */
-    double from, to;  /* the part of the edge in the facet, as fractions; from > to: none */
-    double outer[2];  /* the same, enlarged by errors */
-    double uncertain; /* the fraction of the edge that may belong to it or not */
+    double lateral;               /* delta */
+    double near[2];               /* t of the facet's points near the edge, in projection */
+    lrcsi_segment_part in, outer; /* the part of the edge in the facet; the same, enlarged by
+                                     errors */
+    double uncertain;             /* the fraction of the edge that may belong to it or not */
     double steeper;   /* bound on |cos / cos' - 1|, where its part of the margin may be on another
                          facet: cos of its own incidence angle, cos' of that facet's */
     double elsewhere; /* the sum of this over such facets, times the length along the edge where
@@ -136,19 +136,6 @@ static int is_next_to(const lrcsi_wall_patch *a, const lrcsi_wall_patch *b, uint
 
 /* --- the facets that a margin meets ----------------------------------------------------------- */
 
-/* Limits a range of t, where a function that is linear from `first` to `last` is at most `limit`.
-   */
-static void range_limit(double range[2], double first, double last, double limit)
-{
-    if (first > limit && last > limit) {
-        range[1] = -1;
-    } else if (last > limit) {
-        range[1] = lrcsi_min(range[1], (limit - first) / (last - first));
-    } else if (first > limit) {
-        range[0] = lrcsi_max(range[0], (first - limit) / (first - last));
-    }
-}
-
 /* Finds the part of the edge in a facet, between the lines of its sides. A side is no farther from
    its line than its ends are from their computed positions. */
 static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
@@ -157,9 +144,8 @@ static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
     const lrcsi_view *view = job->bands->view;
     const uint32_t *corner = view->prepared->scene->facet[share->facet].corner;
     const double err = m->err + lrcsi_edge_rectangle_facet_err(view, share->facet);
-    double in[2] = {0, 1};
-    double inner[2] = {0, 1};
-    double outer[2] = {0, 1};
+    lrcsi_segment_part inner = {0, 1};
+    share->in = share->outer = inner;
     for (int k = 0; k < 3; k++) {
         const double *p = view->point[corner[k]].x;
         const double *q = view->point[corner[(k + 1) % 3]].x;
@@ -171,15 +157,12 @@ static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
             const double cross = side[0] * (x[1] - p[1]) - side[1] * (x[0] - p[0]);
             height[i] = length > 0 ? -cross / length : HUGE_VAL;
         }
-        range_limit(in, height[0], height[1], 0);
-        range_limit(inner, height[0], height[1], -err);
-        range_limit(outer, height[0], height[1], err);
+        lrcsi_segment_part_limit(&share->in, height[0], height[1], 0);
+        lrcsi_segment_part_limit(&inner, height[0], height[1], -err);
+        lrcsi_segment_part_limit(&share->outer, height[0], height[1], err);
     }
-    share->from = in[0];
-    share->to = in[1];
-    share->outer[0] = outer[0];
-    share->outer[1] = outer[1];
-    share->uncertain = lrcsi_max(0, outer[1] - outer[0]) - lrcsi_max(0, inner[1] - inner[0]);
+    share->uncertain =
+        lrcsi_max(0, share->outer.to - share->outer.from) - lrcsi_max(0, inner.to - inner.from);
 }
 
 /* The distance in projection from the edge within which points may be visible for the true shapes
@@ -274,9 +257,10 @@ static int shares_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_marg
     for (uint32_t i = 0; i < job->shares && local; i++) {
         lrcsi_wall_share *share = &job->share[i];
         const double own = lrcsi_view_incidence(view, share->facet).cos_theta;
-        const double from = share->outer[0] * m->length - m->err;
-        const double to = share->outer[1] * m->length + m->err;
-        for (uint32_t k = 0; k < job->shares && local && share->outer[0] <= share->outer[1]; k++) {
+        const double from = share->outer.from * m->length - m->err;
+        const double to = share->outer.to * m->length + m->err;
+        for (uint32_t k = 0; k < job->shares && local && !lrcsi_segment_part_is_empty(share->outer);
+             k++) {
             const lrcsi_wall_share *other = &job->share[k];
             const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
             if (k == i || !(length >= 0)) {
@@ -319,8 +303,7 @@ static int facet_point(const lrcsi_view *view, uint32_t facet, const double x[2]
     for (int k = 0; k < 3; k++) {
         const double *a = view->point[corner[(k + 1) % 3]].x;
         const double *b = view->point[corner[(k + 2) % 3]].x;
-        weight[k] =
-            view->facing[facet] * ((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]));
+        weight[k] = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
         sum += weight[k];
     }
     for (int k = 0; k < 3; k++) {
@@ -344,9 +327,9 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
     }
     for (uint32_t i = 0; i < job->shares; i++) {
         const lrcsi_wall_share *share = &job->share[i];
-        if (share->to - share->from > longest) {
-            longest = share->to - share->from;
-            t = 0.5 * (share->from + share->to);
+        if (share->in.to - share->in.from > longest) {
+            longest = share->in.to - share->in.from;
+            t = 0.5 * (share->in.from + share->in.to);
         }
     }
     for (int i = 0; i < 2; i++) {
@@ -374,7 +357,7 @@ static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
 {
     const lrcsi_outline_areas *areas = &job->bands->areas[m->event];
     const double depth = areas->gain_depth + areas->loss_depth;
-    const double part = lrcsi_max(0, share->outer[1] - share->outer[0]);
+    const double part = lrcsi_max(0, share->outer.to - share->outer.from);
     const double near = lrcsi_max(0, share->near[1] - share->near[0]);
     const double k = m->outline->k + m->err;
     double ends = share->near[0] < 2 * k ? 4 * k * k * turn[0] : 0;
@@ -392,14 +375,14 @@ static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
 /* Adds the margins of an edge, if all of them are known. */
 static int shares_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, const double turn[2])
 {
-    const double side = job->bands->events.side[m->event];
+    const int side = job->bands->events.side[m->event];
     const lrcsi_outline_margin none = {0, 0, 0};
     for (uint32_t i = 0; i < job->shares; i++) {
         const lrcsi_wall_share *share = &job->share[i];
         lrcsi_outline_margin margin = none;
-        if (share->from < share->to) {
-            margin = lrcsi_outline_margin_make(m->outline, m->a, m->b, (int)side, share->from,
-                                               share->to);
+        if (share->in.from < share->in.to) {
+            margin = lrcsi_outline_margin_make(m->outline, m->a, m->b, side, share->in.from,
+                                               share->in.to);
         }
         if (!isfinite(margin.error)) {
             return 0; /* then it is so for the first one that is made */
@@ -432,7 +415,7 @@ int lrcsi_wall_margins_hold(lrcsi_wall_margins *job, uint32_t facet, uint32_t ev
 {
     const uint32_t part = job->bands->view->prepared->scene->facet_part[facet];
     lrcsi_wall_event *at = &job->event[event];
-    if (!facet_applies(job, facet) ||
+    if ((at->part == part && !at->known) || !facet_applies(job, facet) ||
         !(facet_lateral(job, facet) <=
           job->bands->orders.outline[job->bands->events.part[event]].k)) {
         return 0;
