@@ -42,23 +42,31 @@ static int is_under_rim(const rim_job *job, uint32_t facet)
            (job->band->parts[facet] & lrcsi_part_set_of(job->wall->part)) != 0;
 }
 
-/* The sectors whose sides of the rim, or their margins, may lie above a facet: *first and those
-   that follow it; returned: how many. The projection takes the plane of the rim onto the view plane
-   and makes no distance there smaller than |d . axis| times itself. So a point of the rim within r
-   of the facet's middle in projection is within r / |d . axis| of the middle's preimage. With the
-   preimage at the distance rho from the axis, that leaves an angle D of 2 sqrt(R rho) sin(D / 2) <=
-   that on either side, and asin x <= pi x / 2. */
-static uint32_t sectors_above(const rim_job *job, uint32_t facet, uint32_t *first)
+/* A part of the rim, by azimuth. */
+typedef struct rim_arc {
+    double from, to;
+} rim_arc;
+
+/* The arcs of the rim with the sides that may lie above a facet, they or their margins. Returns how
+   many there are. The projection takes the plane of the rim onto the view plane. It keeps lengths
+   along e, the direction in that plane that is perpendicular to d, and multiplies those
+   perpendicular to e by |d . axis|; the two remain perpendicular. So a point of the rim within r of
+   the facet's middle in projection
+   1. is within r / |d . axis| of the middle's preimage. With the preimage at the distance rho from
+      the axis, that leaves an angle D of 2 sqrt(R rho) sin(D / 2) <= that on either side, and
+      asin x <= pi x / 2;
+   2. is within r of the middle along e, where it is at R cos(its azimuth - that of e). That leaves
+      an arc on either side of e.
+   The shorter of the two answers is returned; it is the second one where the rim is nearly edge-on.
+   */
+static int arcs_above(const rim_job *job, uint32_t facet, rim_arc arc[2])
 {
     const lrcsi_view *view = job->wall->view;
     const lrcsi_round_surface *s = &job->wall->surface;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    const uint32_t around = job->part->divisions.around;
     const double radius = sqrt(-s->gamma);
-    const double det = s->axis[0][0] * s->axis[1][1] - s->axis[0][1] * s->axis[1][0];
     double x[2] = {-s->view[0], -s->view[1]};
-    double near = 0;
-    *first = 0;
+    double r = 0;
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < 3; i++) {
             x[k] += view->point[corner[i]].x[k] / 3;
@@ -66,25 +74,39 @@ static uint32_t sectors_above(const rim_job *job, uint32_t facet, uint32_t *firs
     }
     for (int i = 0; i < 3; i++) {
         const double *at = view->point[corner[i]].x;
-        near = lrcsi_max(
-            near, lrcsi_length_flat(at[0] - (x[0] + s->view[0]), at[1] - (x[1] + s->view[1])));
+        r = lrcsi_max(r,
+                      lrcsi_length_flat(at[0] - (x[0] + s->view[0]), at[1] - (x[1] + s->view[1])));
     }
-    near =
-        (near + 2 * view->prepared->proximity.reach[job->wall->part]) * (1 + ANGLE_ERR) / fabs(det);
-    double a = (x[0] * s->axis[1][1] - x[1] * s->axis[0][1]) / det;
-    double b = (x[1] * s->axis[0][0] - x[0] * s->axis[1][0]) / det;
-    double rho = lrcsi_length_flat(a, b);
-    double range = 0.5 * LRCS_PI * near / sqrt(radius * rho) + ANGLE_ERR;
-    if (fabs(rho - radius) > near + ANGLE_ERR * radius) {
+    r += 2 * view->prepared->proximity.reach[job->wall->part];
+    r = r * (1 + ANGLE_ERR) + ANGLE_ERR * radius;
+
+    const double det = s->axis[0][0] * s->axis[1][1] - s->axis[0][1] * s->axis[1][0];
+    const double a = (x[0] * s->axis[1][1] - x[1] * s->axis[0][1]) / det; /* the preimage */
+    const double b = (x[1] * s->axis[0][0] - x[0] * s->axis[1][0]) / det;
+    const double rho = lrcsi_length_flat(a, b);
+    if (fabs(rho - radius) > r / fabs(det)) {
         return 0;
     }
-    if (!(range < 0.5 * LRCS_PI)) {
-        return around;
+    const double angle = 0.5 * LRCS_PI * r / (fabs(det) * sqrt(radius * rho)) + ANGLE_ERR;
+    const double half = angle < LRCS_PI ? angle : LRCS_PI;
+
+    const double in_plane = lrcsi_length_flat(s->axis[2][0], s->axis[2][1]);
+    const double e[2] = {-s->axis[2][1] / in_plane, s->axis[2][0] / in_plane};
+    const double along = x[0] * (s->axis[0][0] * e[0] + s->axis[0][1] * e[1]) +
+                         x[1] * (s->axis[1][0] * e[0] + s->axis[1][1] * e[1]);
+    const double high = asin(lrcsi_min(1, lrcsi_max(-1, (along + r) / radius)));
+    const double low = asin(lrcsi_min(1, lrcsi_max(-1, (along - r) / radius)));
+    if (half <= high - low || !(in_plane > 0)) {
+        const double middle = atan2(b, a);
+        arc[0] = (rim_arc){middle - half, middle + half};
+        return 1;
     }
-    double low = floor((atan2(b, a) + 2 * LRCS_PI - range) / (2 * job->wall->body.half));
-    double high = floor((atan2(b, a) + 2 * LRCS_PI + range) / (2 * job->wall->body.half));
-    *first = (uint32_t)low % around;
-    return (uint32_t)lrcsi_min(high - low + 1, around);
+    const double middle = atan2(e[1], e[0]);
+    const double from = 0.5 * LRCS_PI - high - ANGLE_ERR;
+    const double to = 0.5 * LRCS_PI - low + ANGLE_ERR;
+    arc[0] = (rim_arc){middle - to, middle - from};
+    arc[1] = (rim_arc){middle + from, middle + to};
+    return 2;
 }
 
 /* The sector at the rim of which a facet is the first: its number, and its sides, of which the
@@ -107,16 +129,22 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
 static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32_t facet)
 {
     const lrcsi_part_set others = job->band->parts[facet] & ~lrcsi_part_set_of(job->wall->part);
-    uint32_t first;
-    uint32_t count = sectors_above(job, facet, &first);
-    for (uint32_t i = 0; i < count; i++) {
-        rim_side *side = &job->side[(first + i) % job->part->divisions.around];
-        side->is_certain &= terms[facet].known && others == 0;
-        if (terms[facet].known) {
-            side->facet = side->is_summed ? side->facet : facet;
-            side->is_summed |= job->visible[facet].high > 0;
-            side->is_visible |= job->visible[facet].low > 0;
-            side->bound = lrcsi_max(side->bound, terms[facet].bound);
+    const uint32_t around = job->part->divisions.around;
+    const double width = 2 * job->wall->body.half;
+    rim_arc arc[2];
+    const int arcs = arcs_above(job, facet, arc);
+    for (int k = 0; k < arcs; k++) {
+        const uint32_t first = (uint32_t)floor((arc[k].from + 4 * LRCS_PI) / width);
+        const uint32_t last = (uint32_t)floor((arc[k].to + 4 * LRCS_PI) / width);
+        for (uint32_t i = first; i <= last && i - first < around; i++) {
+            rim_side *side = &job->side[i % around];
+            side->is_certain &= terms[facet].known && others == 0;
+            if (terms[facet].known) {
+                side->facet = side->is_summed ? side->facet : facet;
+                side->is_summed |= job->visible[facet].high > 0;
+                side->is_visible |= job->visible[facet].low > 0;
+                side->bound = lrcsi_max(side->bound, terms[facet].bound);
+            }
         }
     }
 }
