@@ -5,6 +5,7 @@
 #include "scene/proximity.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/constant.h"
 #include "base/degrees.h"
@@ -20,6 +21,9 @@
 /* The rounding of vertices cannot reverse a facet if |cos(theta)| exceeds this times the error of
    the vertices over the facet's smallest altitude (scene/solid.c). */
 #define GRAZING_FACTOR 16.0
+
+/* Products of vectors whose square is less may underflow. */
+#define LEAST_SQUARE 0x1p-900
 
 int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
 {
@@ -184,7 +188,7 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
 }
 
 /* Are all corners of `other` farther than `slack` from the plane of a facet, on one side of it? */
-static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static int plane_separates(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
@@ -199,6 +203,55 @@ static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other,
         below += height < -limit;
     }
     return above == 3 || below == 3;
+}
+
+/* The longest side of a facet, as a vector. */
+static void longest_side(const lrcs_prepared *p, uint32_t facet, double side[3])
+{
+    double longest = -1;
+    for (int k = 0; k < 3; k++) {
+        double at[3];
+        lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, k),
+                           lrcsi_prepared_corner(p, facet, (k + 1) % 3), at);
+        const double square = lrcsi_vec3_dot(at, at);
+        if (square > longest) {
+            longest = square;
+            memcpy(side, at, sizeof at);
+        }
+    }
+}
+
+/* Are two facets farther apart than `slack` along the direction perpendicular to the longest sides
+   of both? Distances along it have errors of some 16 u, which LRCSI_PROXIMITY_ERR covers, as long
+   as no product underflows. */
+static int longest_sides_separate(const lrcs_prepared *p, uint32_t facet, uint32_t other,
+                                  double slack)
+{
+    const double *a = lrcsi_prepared_corner(p, facet, 0);
+    double side[2][3];
+    double direction[3];
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
+    longest_side(p, facet, side[0]);
+    longest_side(p, other, side[1]);
+    lrcsi_vec3_cross(side[0], side[1], direction);
+    const double square = lrcsi_vec3_dot(direction, direction);
+    const double limit = slack * sqrt(square);
+    for (int k = 0; k < 6; k++) {
+        double from_a[3];
+        lrcsi_vec3_between(a, lrcsi_prepared_corner(p, k < 3 ? facet : other, k % 3), from_a);
+        lrcsi_range_extend(lrcsi_vec3_dot(direction, from_a), &low[k / 3], &high[k / 3]);
+    }
+    return square > LEAST_SQUARE && (low[0] - high[1] > limit || low[1] - high[0] > limit);
+}
+
+/* Is it proved that no part of a facet is within `slack` of the other? The long, narrow facets of
+   two flat faces that intersect have boxes that overlap, and neither plane separates them; but most
+   pass each other at a distance. */
+static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+{
+    return plane_separates(p, facet, other, slack) || plane_separates(p, other, facet, slack) ||
+           longest_sides_separate(p, facet, other, slack);
 }
 
 /* --- all pairs -------------------------------------------------------------------------------- */
@@ -226,7 +279,7 @@ static void near_add(lrcs_prepared *p, uint32_t facet, uint32_t other)
     double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
     lrcsi_part_set set = lrcsi_part_set_of(part[other]);
     if ((p->proximity.near[facet] & set) == 0 && !pair_is_apart(p, facet, other, near) &&
-        !pair_is_apart(p, other, facet, near) && pair_slice(p, facet, other, near).count > 0) {
+        pair_slice(p, facet, other, near).count > 0) {
         p->proximity.near[facet] |= set;
     }
 }
@@ -237,7 +290,7 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
-    if (pair_is_apart(p, facet, other, slack) || pair_is_apart(p, other, facet, slack)) {
+    if (pair_is_apart(p, facet, other, slack)) {
         return LRCS_OK;
     }
     lrcsi_slice slice = pair_slice(p, facet, other, slack);

@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* The slack between flat and round parts. The rows of facets on straight walls: whatever the shape,
-   and mirrored, they run across the axis. */
+   and mirrored, they run across the axis. Which facets are within the slack. */
 #include "scene/proximity.h"
 
+#include <string.h>
+
+#include "base/range.h"
+#include "base/vec3.h"
 #include "check.h"
+#include "mesh/box.h"
 #include "scene/prepare.h"
 
 static unsigned char scene_area[1u << 22];
@@ -120,12 +125,120 @@ static void facets_of_round_shapes_have_no_rows(void **state)
     }
 }
 
+/* The point of a triangle that is nearest to `from`. */
+static void nearest_point(const double *const corner[3], const double from[3], double nearest[3])
+{
+    double n[3];
+    double best = HUGE_VAL;
+    int inside = 1;
+    lrcsi_vec3_normal(corner[0], corner[1], corner[2], n);
+    for (int i = 0; i < 3; i++) {
+        const double *a = corner[i];
+        double along[3];
+        double to[3];
+        double out[3];
+        lrcsi_vec3_between(a, corner[(i + 1) % 3], along);
+        lrcsi_vec3_between(a, from, to);
+        lrcsi_vec3_cross(along, n, out);
+        inside = inside && lrcsi_vec3_dot(out, to) <= 0;
+        const double t =
+            lrcsi_max(0, lrcsi_min(1, lrcsi_vec3_dot(to, along) / lrcsi_vec3_dot(along, along)));
+        const double x[3] = {a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
+        double gap[3];
+        lrcsi_vec3_between(x, from, gap);
+        if (lrcsi_vec3_dot(gap, gap) < best) {
+            best = lrcsi_vec3_dot(gap, gap);
+            memcpy(nearest, x, sizeof x);
+        }
+    }
+    if (inside) {
+        double to[3];
+        lrcsi_vec3_between(corner[0], from, to);
+        const double height = lrcsi_vec3_dot(n, to) / lrcsi_vec3_dot(n, n);
+        for (int k = 0; k < 3; k++) {
+            nearest[k] = from[k] - height * n[k];
+        }
+    }
+}
+
+/* An upper bound of the distance of two triangles: projections onto one and the other in turn. */
+static double distance(const double *const a[3], const double *const b[3])
+{
+    double x[3];
+    double y[3];
+    double gap[3];
+    memcpy(x, a[0], sizeof x);
+    for (int i = 0; i < 30; i++) {
+        nearest_point(b, x, y);
+        nearest_point(a, y, x);
+    }
+    lrcsi_vec3_between(x, y, gap);
+    return sqrt(lrcsi_vec3_dot(gap, gap));
+}
+
+/* Two drums whose ends intersect, and a ball between them: of the facets of their ends, long and
+   narrow, most pass each other, but none that are within the slack may be missed. */
+static void all_facets_within_the_slack_are_pairs(void **state)
+{
+    (void)state;
+    enum { PARTS = 3, FACETS = 1500 };
+    static lrcs_scene scene;
+    static unsigned char is_pair[FACETS][FACETS];
+    lrcs_recipe_part part[PARTS];
+    for (int i = 0; i < PARTS; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material_index = -1;
+    }
+    part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 2};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 0.8, .length = 1.5};
+    static const double turned[3][3] = {{0.8, 0, 0.6}, {0.6, 0, -0.8}, {0, 1, 0}}; /* on its side */
+    memcpy(part[1].place.rotate, turned, sizeof turned);
+    part[1].place.translate[2] = 2.1;
+    part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.3};
+    part[2].place.translate[2] = 2;
+    const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
+    const lrcs_build_options options = {1e-3, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *p = NULL;
+    int ends = 0;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    work = lrcs_work_make(prepare_area, sizeof prepare_area);
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &p), LRCS_OK);
+    assert_in_range(scene.facet_count, 200, FACETS);
+    memset(is_pair, 0, sizeof is_pair);
+    for (size_t i = 0; i < p->proximity.count; i++) {
+        is_pair[p->proximity.pair[i].facet][p->proximity.pair[i].other] = 1;
+    }
+    for (uint32_t f = 0; f < scene.facet_count; f++) {
+        const double *const a[3] = {lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
+                                    lrcsi_prepared_corner(p, f, 2)};
+        for (uint32_t g = 0; g < scene.facet_count; g++) {
+            const double *const b[3] = {lrcsi_prepared_corner(p, g, 0),
+                                        lrcsi_prepared_corner(p, g, 1),
+                                        lrcsi_prepared_corner(p, g, 2)};
+            const double slack = lrcsi_proximity_slack(p, scene.facet_part[f], scene.facet_part[g]);
+            const lrcsi_box own = lrcsi_box_of(p->vertex, &scene.facet[f]);
+            const lrcsi_box theirs = lrcsi_box_of(p->vertex, &scene.facet[g]);
+            int apart = scene.facet_part[f] == scene.facet_part[g];
+            for (int k = 0; k < 3; k++) {
+                apart |= own.low[k] > theirs.high[k] + slack || theirs.low[k] > own.high[k] + slack;
+            }
+            if (!apart && distance(a, b) < 0.999 * slack) {
+                assert_true(is_pair[f][g]);
+                ends += !scene.facet_smooth[f] && !scene.facet_smooth[g];
+            }
+        }
+    }
+    assert_true(ends > 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_slack_of_two_parts_is_what_both_may_differ_by),
         cmocka_unit_test(rows_of_straight_walls_lie_across_the_axis),
         cmocka_unit_test(facets_of_round_shapes_have_no_rows),
+        cmocka_unit_test(all_facets_within_the_slack_are_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
