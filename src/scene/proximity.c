@@ -208,8 +208,10 @@ static int plane_separates(const lrcs_prepared *p, uint32_t facet, uint32_t othe
 /* The longest side of a facet, as a vector. */
 static void longest_side(const lrcs_prepared *p, uint32_t facet, double side[3])
 {
-    double longest = -1;
-    for (int k = 0; k < 3; k++) {
+    lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
+                       side);
+    double longest = lrcsi_vec3_dot(side, side);
+    for (int k = 1; k < 3; k++) {
         double at[3];
         lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, k),
                            lrcsi_prepared_corner(p, facet, (k + 1) % 3), at);
