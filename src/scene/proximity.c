@@ -188,7 +188,7 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
 }
 
 /* Are all corners of `other` farther than `slack` from the plane of a facet, on one side of it? */
-static int plane_separates(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static int pair_apart_by_plane(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
@@ -206,7 +206,7 @@ static int plane_separates(const lrcs_prepared *p, uint32_t facet, uint32_t othe
 }
 
 /* The longest side of a facet, as a vector. */
-static void longest_side(const lrcs_prepared *p, uint32_t facet, double side[3])
+static void pair_longest_side(const lrcs_prepared *p, uint32_t facet, double side[3])
 {
     lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
                        side);
@@ -226,16 +226,15 @@ static void longest_side(const lrcs_prepared *p, uint32_t facet, double side[3])
 /* Are two facets farther apart than `slack` along the direction perpendicular to the longest sides
    of both? Distances along it have errors of some 16 u, which LRCSI_PROXIMITY_ERR covers, as long
    as no product underflows. */
-static int longest_sides_separate(const lrcs_prepared *p, uint32_t facet, uint32_t other,
-                                  double slack)
+static int pair_apart_by_sides(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const double *a = lrcsi_prepared_corner(p, facet, 0);
     double side[2][3];
     double direction[3];
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    longest_side(p, facet, side[0]);
-    longest_side(p, other, side[1]);
+    pair_longest_side(p, facet, side[0]);
+    pair_longest_side(p, other, side[1]);
     lrcsi_vec3_cross(side[0], side[1], direction);
     const double square = lrcsi_vec3_dot(direction, direction);
     const double limit = slack * sqrt(square);
@@ -252,8 +251,9 @@ static int longest_sides_separate(const lrcs_prepared *p, uint32_t facet, uint32
    pass each other at a distance. */
 static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
-    return plane_separates(p, facet, other, slack) || plane_separates(p, other, facet, slack) ||
-           longest_sides_separate(p, facet, other, slack);
+    return pair_apart_by_plane(p, facet, other, slack) ||
+           pair_apart_by_plane(p, other, facet, slack) ||
+           pair_apart_by_sides(p, facet, other, slack);
 }
 
 /* --- all pairs -------------------------------------------------------------------------------- */

@@ -131,6 +131,7 @@ static void nearest_point(const double *const corner[3], const double from[3], d
     double n[3];
     double best = HUGE_VAL;
     int inside = 1;
+    memcpy(nearest, corner[0], sizeof n);
     lrcsi_vec3_normal(corner[0], corner[1], corner[2], n);
     for (int i = 0; i < 3; i++) {
         const double *a = corner[i];
