@@ -73,11 +73,11 @@ static int arcs_above(const rim_job *job, uint32_t facet, rim_arc arc[2])
         }
     }
     for (int i = 0; i < 3; i++) {
-        const double *at = view->point[corner[i]].x;
-        r = lrcsi_max(r,
-                      lrcsi_length_flat(at[0] - (x[0] + s->view[0]), at[1] - (x[1] + s->view[1])));
+        const lrcsi_view_vertex *at = &view->point[corner[i]];
+        const double from[2] = {at->x[0] - (x[0] + s->view[0]), at->x[1] - (x[1] + s->view[1])};
+        r = lrcsi_max(r, lrcsi_length_flat(from[0], from[1]) + 2 * at->err);
     }
-    r += 2 * view->prepared->proximity.reach[job->wall->part];
+    r += 2 * view->prepared->proximity.reach[job->wall->part] + s->position_err;
     r = r * (1 + ANGLE_ERR) + ANGLE_ERR * radius;
 
     const double det = s->axis[0][0] * s->axis[1][1] - s->axis[0][1] * s->axis[1][0];
