@@ -14,20 +14,26 @@
 static unsigned char scene_area[1u << 22];
 static unsigned char prepare_area[1u << 24];
 
-static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror)
+static const lrcs_prepared *prepare_recipe(const lrcs_recipe *recipe, double tolerance,
+                                           uint32_t facets)
 {
     static lrcs_scene scene;
-    lrcs_recipe_part part = {.name = "", .shape = *shape, .place = lrcs_place_default()};
-    part.place.scale[0] = mirror;
-    part.material_index = -1;
-    lrcs_recipe recipe = {.part = &part, .part_count = 1};
-    lrcs_build_options options = {1e-3, 1000, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    const lrcs_build_options options = {tolerance, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     const lrcs_prepared *prepared = NULL;
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
     work = lrcs_work_make(prepare_area, sizeof prepare_area);
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     return prepared;
+}
+
+static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror)
+{
+    lrcs_recipe_part part = {.name = "", .shape = *shape, .place = lrcs_place_default()};
+    part.place.scale[0] = mirror;
+    part.material_index = -1;
+    const lrcs_recipe recipe = {.part = &part, .part_count = 1};
+    return prepare_recipe(&recipe, 1e-3, 1000);
 }
 
 /* A ball, a box, a plate, and half a ball that is open. */
@@ -35,7 +41,6 @@ static void the_slack_of_two_parts_is_what_both_may_differ_by(void **state)
 {
     (void)state;
     enum { BALL, BOX, PLATE, BOWL, PARTS };
-    static lrcs_scene scene;
     lrcs_recipe_part part[PARTS];
     for (int i = 0; i < PARTS; i++) {
         part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
@@ -48,14 +53,9 @@ static void the_slack_of_two_parts_is_what_both_may_differ_by(void **state)
     part[BOWL].shape =
         (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 0.5, .parts = LRCS_SHAPE_WALL};
     const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
-    const lrcs_build_options options = {1e-2, 1000, LRCS_NORMALS_FLAT, 1, 0, NULL};
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    const lrcs_prepared *p = NULL;
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(prepare_area, sizeof prepare_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &p), LRCS_OK);
-    const double ball = ldexp(scene.part[BALL].bounds.hausdorff, -p->exponent);
-    const double bowl = ldexp(scene.part[BOWL].bounds.hausdorff, -p->exponent);
+    const lrcs_prepared *p = prepare_recipe(&recipe, 1e-2, 1000);
+    const double ball = ldexp(p->scene->part[BALL].bounds.hausdorff, -p->exponent);
+    const double bowl = ldexp(p->scene->part[BOWL].bounds.hausdorff, -p->exponent);
     const double most = 1 + 1e-6;
     assert_true(ball > 0 && bowl > 0);
     check_same(lrcsi_proximity_slack(p, BOX, PLATE), 0);
@@ -183,7 +183,6 @@ static void all_facets_within_the_slack_are_pairs(void **state)
 {
     (void)state;
     enum { PARTS = 3, FACETS = 1500 };
-    static lrcs_scene scene;
     static unsigned char is_pair[FACETS][FACETS];
     lrcs_recipe_part part[PARTS];
     for (int i = 0; i < PARTS; i++) {
@@ -198,35 +197,32 @@ static void all_facets_within_the_slack_are_pairs(void **state)
     part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.3};
     part[2].place.translate[2] = 2;
     const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
-    const lrcs_build_options options = {1e-3, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    const lrcs_prepared *p = NULL;
+    const lrcs_prepared *p = prepare_recipe(&recipe, 1e-3, 300);
+    const lrcs_scene *scene = p->scene;
     int ends = 0;
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(prepare_area, sizeof prepare_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &p), LRCS_OK);
-    assert_in_range(scene.facet_count, 200, FACETS);
+    assert_in_range(scene->facet_count, 200, FACETS);
     memset(is_pair, 0, sizeof is_pair);
     for (size_t i = 0; i < p->proximity.count; i++) {
         is_pair[p->proximity.pair[i].facet][p->proximity.pair[i].other] = 1;
     }
-    for (uint32_t f = 0; f < scene.facet_count; f++) {
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
         const double *const a[3] = {lrcsi_prepared_corner(p, f, 0), lrcsi_prepared_corner(p, f, 1),
                                     lrcsi_prepared_corner(p, f, 2)};
-        for (uint32_t g = 0; g < scene.facet_count; g++) {
+        for (uint32_t g = 0; g < scene->facet_count; g++) {
             const double *const b[3] = {lrcsi_prepared_corner(p, g, 0),
                                         lrcsi_prepared_corner(p, g, 1),
                                         lrcsi_prepared_corner(p, g, 2)};
-            const double slack = lrcsi_proximity_slack(p, scene.facet_part[f], scene.facet_part[g]);
-            const lrcsi_box own = lrcsi_box_of(p->vertex, &scene.facet[f]);
-            const lrcsi_box theirs = lrcsi_box_of(p->vertex, &scene.facet[g]);
-            int apart = scene.facet_part[f] == scene.facet_part[g];
+            const double slack =
+                lrcsi_proximity_slack(p, scene->facet_part[f], scene->facet_part[g]);
+            const lrcsi_box own = lrcsi_box_of(p->vertex, &scene->facet[f]);
+            const lrcsi_box theirs = lrcsi_box_of(p->vertex, &scene->facet[g]);
+            int apart = scene->facet_part[f] == scene->facet_part[g];
             for (int k = 0; k < 3; k++) {
                 apart |= own.low[k] > theirs.high[k] + slack || theirs.low[k] > own.high[k] + slack;
             }
             if (!apart && distance(a, b) < 0.999 * slack) {
                 assert_true(is_pair[f][g]);
-                ends += !scene.facet_smooth[f] && !scene.facet_smooth[g];
+                ends += !scene->facet_smooth[f] && !scene->facet_smooth[g];
             }
         }
     }
