@@ -36,17 +36,22 @@ int lrcsi_facet_cells_order(const lrcsi_facet_cells *cells, uint32_t other)
     return order > 0 ? LRCSI_ORDER_FRONT : order < 0 ? LRCSI_ORDER_BEHIND : LRCSI_ORDER_UNDECIDED;
 }
 
-/* Does another facet lie entirely beyond one side of f? */
+/* Does another facet lie entirely beyond one side of f? Corners that both share are on the line of
+   that side. */
 static int facet_apart(const lrcsi_facet_cells *cells, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = cells->division.view;
+    const uint32_t *ends = view->prepared->scene->facet[cells->facet].corner;
     const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
+        const uint32_t from = ends[k];
+        const uint32_t to = ends[k == 2 ? 0 : k + 1];
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
             const lrcsi_view_vertex *at = &view->point[corner[i]];
             apart =
+                corner[i] == from || corner[i] == to ||
                 view->facing[cells->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
         }
     }
