@@ -142,8 +142,9 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
     for (uint32_t f = 0; moment && f < count; f++) {
         moment[f] = (lrcsi_moment){.error = 0};
     }
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
-        if (o.answer[f] == LRCSI_QUERY_UNDECIDED && !classification->undecided[f]) {
+    for (uint32_t f = status == LRCS_OK ? 0 : count;
+         (f = lrcsi_marks_next(o.answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+        if (!classification->undecided[f]) {
             visible[f] = uniform_area(&o, f); /* its query gave no answer */
             if (moment) {
                 moment[f].error = HUGE_VAL;
@@ -161,8 +162,9 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
     if (status == LRCS_OK && left > 0) {
         status = lrcsi_facet_cells_make(classification, meter, &o.facets, work, &o.single);
     }
-    for (uint32_t f = 0; f < count && left > 0 && status == LRCS_OK; f++) {
-        if (!classification->undecided[f] || found[f]) {
+    for (uint32_t f = status == LRCS_OK && left > 0 ? 0 : count;
+         (f = lrcsi_marks_next(classification->undecided, f, count, 1)) < count; f++) {
+        if (found[f]) {
             continue;
         }
         lrcsi_progress_report(progress, LRCS_PROGRESS_VISIBILITY, f, count);
