@@ -3,7 +3,11 @@
    order in which facets are summed. */
 #include "scene/batch.h"
 
+#include <math.h>
+
 #include "base/length.h"
+#include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "scene/normal.h"
 
@@ -38,8 +42,7 @@ static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
     batch_normals n;
     for (uint32_t start = 0; start < b->count; start += LRCSI_LANES) {
         const uint32_t *facet = b->facet + start;
-        uint32_t left = b->count - start;
-        uint32_t count = left < LRCSI_LANES ? left : LRCSI_LANES;
+        uint32_t count = lrcsi_batch_lanes(start, b->count);
         lrcsi_normals_make(p, facet, count);
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
             const lrcsi_normal *from = &p->normal[facet[i < count ? i : 0]];
@@ -73,11 +76,40 @@ static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
     lrcsi_normals_make(p, skipped, count);
 }
 
+/* The ball around the unit normals of `count` elements: about the middle of their box. */
+static lrcsi_normal_ball normal_ball(const lrcsi_batches *b, uint32_t start, uint32_t count)
+{
+    lrcsi_normal_ball ball = {.radius = 0, .consecutive = 1};
+    for (int k = 0; k < 3; k++) {
+        double low = HUGE_VAL;
+        double high = -HUGE_VAL;
+        for (uint32_t i = start; i < start + count; i++) {
+            lrcsi_range_extend(b->normal[k][i], &low, &high);
+        }
+        ball.middle[k] = 0.5 * (low + high);
+    }
+    for (uint32_t i = start; i < start + count; i++) {
+        const double from[3] = {b->normal[0][i] - ball.middle[0], b->normal[1][i] - ball.middle[1],
+                                b->normal[2][i] - ball.middle[2]};
+        ball.radius = lrcsi_max(ball.radius, sqrt(lrcsi_vec3_dot(from, from)));
+        ball.consecutive &= b->facet[i] == b->facet[start] + (i - start);
+    }
+    ball.radius += 0x1p-46;
+    return ball;
+}
+
+static uint32_t ball_count(uint32_t facets)
+{
+    return facets / LRCSI_LANES + (facets % LRCSI_LANES != 0);
+}
+
 size_t lrcsi_batches_need(const lrcs_scene *scene)
 {
     size_t facets = scene->facet_count;
     size_t need = lrcsi_work_bytes((size_t)scene->material_count + 2, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(
+        need, lrcsi_work_bytes(ball_count(scene->facet_count), sizeof(lrcsi_normal_ball)));
     for (int k = 0; k < 4; k++) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets + LRCSI_LANES, sizeof(double)));
     }
@@ -98,7 +130,8 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
     for (int k = 0; k < 3; k++) {
         b->normal[k] = lrcsi_work_take(work, capacity, sizeof *b->normal[k]);
     }
-    if (!b->first || !b->facet || !b->area || !b->normal[2]) {
+    b->ball = lrcsi_work_take(work, ball_count(scene->facet_count), sizeof *b->ball);
+    if (!b->first || !b->facet || !b->area || !b->normal[2] || !b->ball) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -116,5 +149,8 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
         }
     }
     batch_normals_make(p, b);
+    for (uint32_t start = 0; start < b->count; start += LRCSI_LANES) {
+        b->ball[start / LRCSI_LANES] = normal_ball(b, start, lrcsi_batch_lanes(start, b->count));
+    }
     return LRCS_OK;
 }

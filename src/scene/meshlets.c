@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Computes the boxes of meshlets, which of their facets are connected within the meshlet, and to
-   which meshlets their sides lead. It does not decide how a view uses them. */
+   which meshlets their sides lead; compares the numbers of their facets. It does not decide how a
+   view uses them. */
 #include "scene/meshlets.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/disjoint.h"
 #include "base/work.h"
@@ -121,4 +123,40 @@ int lrcsi_meshlets_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_meshlets 
     made.link = lrcsi_work_take(work, made.first_link[made.count], sizeof *made.link);
     *meshlets = made;
     return LRCS_OK;
+}
+
+/* --- signs of facets -------------------------------------------------------------------------- */
+
+size_t lrcsi_facet_signs_need(uint32_t facet_count)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(lrcsi_meshlets_room(facet_count) + 1, 1),
+                          lrcsi_work_bytes(lrcsi_meshlets_count(facet_count), 1));
+}
+
+int lrcsi_facet_signs_take(uint32_t facet_count, lrcs_work *work, lrcsi_facet_signs *signs)
+{
+    signs->facet = lrcsi_work_take(work, lrcsi_meshlets_room(facet_count) + 1, 1);
+    signs->meshlet = lrcsi_work_take(work, lrcsi_meshlets_count(facet_count), 1);
+    return signs->facet && signs->meshlet;
+}
+
+void lrcsi_facet_signs_finish(uint32_t facet_count, lrcsi_facet_signs *signs)
+{
+    const size_t room = lrcsi_meshlets_room(facet_count);
+    memset(signs->facet + facet_count, 0, room + 1 - facet_count);
+    for (size_t at = 0; at < room; at += LRCSI_MESHLET_FACETS) {
+        const signed char *sign = signs->facet + at;
+        uint64_t word[LRCSI_MESHLET_FACETS / sizeof(uint64_t)];
+        memcpy(word, sign, sizeof word);
+        const int alike =
+            word[0] == word[1] && word[0] == (word[0] & 0xff) * UINT64_C(0x0101010101010101);
+        signs->meshlet[at / LRCSI_MESHLET_FACETS] = alike ? sign[0] : LRCSI_MESHLET_MIXED;
+    }
+}
+
+void lrcsi_facet_signs_copy(uint32_t facet_count, const lrcsi_facet_signs *from,
+                            lrcsi_facet_signs *to)
+{
+    memcpy(to->facet, from->facet, lrcsi_meshlets_room(facet_count) + 1);
+    memcpy(to->meshlet, from->meshlet, lrcsi_meshlets_count(facet_count));
 }

@@ -5,8 +5,6 @@
 #ifndef LRCSI_MESHLETS_H
 #define LRCSI_MESHLETS_H
 
-#include <string.h>
-
 #include "scene/prepared.h"
 
 size_t lrcsi_meshlets_need(uint32_t facet_count);
@@ -15,12 +13,29 @@ size_t lrcsi_meshlets_need(uint32_t facet_count);
    The result stays in the work area. Linear time. */
 int lrcsi_meshlets_make(const lrcs_prepared *prepared, lrcs_work *work, lrcsi_meshlets *meshlets);
 
-/* Are all LRCSI_MESHLET_FACETS values of a meshlet equal? */
-static inline int lrcsi_meshlet_alike(const signed char *value, uint32_t meshlet)
+/* What a view knows of each facet: -1, 0 or 1; and of each meshlet: that number if its facets all
+   have the same one, else LRCSI_MESHLET_MIXED. After the last facet there are zeros that fill its
+   meshlet, and one more. */
+enum { LRCSI_MESHLET_MIXED = 2 };
+typedef struct lrcsi_facet_signs {
+    signed char *facet, *meshlet;
+} lrcsi_facet_signs;
+
+size_t lrcsi_facet_signs_need(uint32_t facet_count);
+
+/* The arrays, to be filled. Returns 0 if memory is missing. */
+int lrcsi_facet_signs_take(uint32_t facet_count, lrcs_work *work, lrcsi_facet_signs *signs);
+
+/* Fills those of meshlets, and the zeros, from those of the facets. */
+void lrcsi_facet_signs_finish(uint32_t facet_count, lrcsi_facet_signs *signs);
+
+void lrcsi_facet_signs_copy(uint32_t facet_count, const lrcsi_facet_signs *from,
+                            lrcsi_facet_signs *to);
+
+static inline void lrcsi_facet_signs_clear(lrcsi_facet_signs *signs, uint32_t facet)
 {
-    uint64_t word[LRCSI_MESHLET_FACETS / sizeof(uint64_t)];
-    memcpy(word, value + (size_t)meshlet * LRCSI_MESHLET_FACETS, sizeof word);
-    return word[0] == word[1] && word[0] == (word[0] & 0xff) * 0x0101010101010101u;
+    signs->facet[facet] = 0;
+    signs->meshlet[facet / LRCSI_MESHLET_FACETS] = LRCSI_MESHLET_MIXED;
 }
 
 #endif

@@ -46,16 +46,32 @@ typedef struct lrcsi_neighbours {
     uint32_t irregular_count;
 } lrcsi_neighbours;
 
+/* The unit normals of LRCSI_LANES elements of the batches are within `radius` of `middle`. The
+   radius includes 2^-46, more than what rounding adds to the product of one of them and a unit
+   direction. */
+typedef struct lrcsi_normal_ball {
+    double middle[3], radius;
+    int consecutive; /* 1 if their facets follow one another in the scene */
+} lrcsi_normal_ball;
+
 /* Facets that are not skipped, sorted by material, and by index within one. A packet of LRCSI_LANES
    may start at any element: as many elements beyond the last are zero. */
 typedef struct lrcsi_batches {
     uint32_t count;
-    uint32_t *first;   /* material i: elements first[i] .. first[i + 1] - 1 */
-    uint32_t *facet;   /* index in the scene */
-    double *normal[3]; /* unit; relative error of each component at most 1.01 u */
-    double *area;      /* S, scaled; relative error at most 3 u */
-    int redundant;     /* 1 if some are redundant, at least from behind */
+    uint32_t *first;         /* material i: elements first[i] .. first[i + 1] - 1 */
+    uint32_t *facet;         /* index in the scene */
+    double *normal[3];       /* unit; relative error of each component at most 1.01 u */
+    double *area;            /* S, scaled; relative error at most 3 u */
+    lrcsi_normal_ball *ball; /* of elements LRCSI_LANES k .. LRCSI_LANES (k + 1) - 1 */
+    int redundant;           /* 1 if some are redundant, at least from behind */
 } lrcsi_batches;
+
+/* How many elements of the batches from `start` to `end` lie in the same ball. */
+static inline uint32_t lrcsi_batch_lanes(uint32_t start, uint32_t end)
+{
+    const uint32_t left = LRCSI_LANES - start % LRCSI_LANES;
+    return end - start < left ? end - start : left;
+}
 
 /* Two facets of different parts, the distance between which is within the slack of these parts
    (lrcsi_proximity_slack). */

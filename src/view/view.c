@@ -227,8 +227,24 @@ double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y)
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
+/* Makes all facets of a ball face the same way. */
+static void facings_alike(lrcsi_view *view, const lrcsi_normal_ball *ball, const uint32_t *facet,
+                          uint32_t count, int facing)
+{
+    if (ball->consecutive) {
+        memset(view->facing + facet[0], facing, count);
+    } else {
+        for (uint32_t i = 0; i < count; i++) {
+            view->facing[facet[i]] = (signed char)facing;
+        }
+    }
+    view->front += facing > 0 ? count : 0;
+    view->back += facing < 0 ? count : 0;
+}
+
 /* Facing is the sign of the dot product of unit vectors. It is computed exactly if the product may
-   have the wrong sign, which is so rare that one test for all lanes suffices. */
+   have the wrong sign, which is so rare that one test for all lanes suffices. The ball of their
+   normals decides most lanes at once. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -239,10 +255,18 @@ static void view_facings(lrcsi_view *view)
     memset(view->facing, 0, p->scene->facet_count);
     for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
         const uint32_t *facet = b->facet + place;
+        const uint32_t count = lrcsi_batch_lanes(place, b->count);
+        double low;
+        double high;
+        const lrcsi_normal_ball *ball = &b->ball[place / LRCSI_LANES];
+        lrcsi_view_dot_range(ball, d, &low, &high);
+        if (low > LRCSI_DOT_ERROR || high < -LRCSI_DOT_ERROR) {
+            facings_alike(view, ball, facet, count, low > 0 ? 1 : -1);
+            continue;
+        }
         const double *x = b->normal[0] + place;
         const double *y = b->normal[1] + place;
         const double *z = b->normal[2] + place;
-        uint32_t count = b->count - place < LRCSI_LANES ? b->count - place : LRCSI_LANES;
         uint32_t back = 0;
         uint64_t undecided = 0; /* sign bit: some |dot| is at most the error */
         double dot[LRCSI_LANES];
@@ -270,9 +294,42 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
+/* The facing of a facet that casts, else 0: a front casts unless it is always redundant, a back
+   only if backs cast and it is not redundant at all. */
+static inline signed char cast_of(signed char facing, unsigned char redundant, int backs)
+{
+    return (signed char)((facing > 0 && redundant != LRCSI_REDUNDANT) -
+                         (facing < 0 && redundant == LRCSI_NOT_REDUNDANT && backs));
+}
+
+/* The same of a whole meshlet: the trip count is constant, so that compilers vectorize the loop. */
+static void cast_meshlet(const signed char *restrict facing,
+                         const unsigned char *restrict redundant, int backs,
+                         signed char *restrict cast)
+{
+    for (uint32_t i = 0; i < LRCSI_MESHLET_FACETS; i++) {
+        cast[i] = cast_of(facing[i], redundant[i], backs);
+    }
+}
+
+static void view_cast(lrcsi_view *view)
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t count = p->scene->facet_count;
+    const uint32_t whole = count - count % LRCSI_MESHLET_FACETS;
+    for (uint32_t f = 0; f < whole; f += LRCSI_MESHLET_FACETS) {
+        cast_meshlet(view->facing + f, p->redundant + f, view->backs.cast, view->cast.facet + f);
+    }
+    for (uint32_t f = whole; f < count; f++) {
+        view->cast.facet[f] = cast_of(view->facing[f], p->redundant[f], view->backs.cast);
+    }
+    lrcsi_facet_signs_finish(count, &view->cast);
+}
+
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_bytes(prepared->scene->facet_count, 1);
+    const uint32_t count = prepared->scene->facet_count;
+    return lrcsi_work_add(lrcsi_work_bytes(count, 1), lrcsi_facet_signs_need(count));
 }
 
 int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_view_backs backs,
@@ -284,8 +341,11 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
     if (status != LRCS_OK) {
         return status;
     }
-    v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
-    if (!v.facing) {
+    const size_t mark = work->used;
+    const uint32_t count = prepared->scene->facet_count;
+    v.facing = lrcsi_work_take(work, count, sizeof *v.facing);
+    if (!v.facing || !lrcsi_facet_signs_take(count, work, &v.cast)) {
+        work->used = mark;
         return LRCS_E_MEMORY;
     }
     v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
@@ -297,6 +357,7 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
         v.unit_low[k] = d.lo;
     }
     view_facings(&v);
+    view_cast(&v);
     *view = v;
     return LRCS_OK;
 }

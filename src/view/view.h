@@ -12,7 +12,7 @@
 
 #include "base/constant.h"
 #include "base/range.h"
-#include "scene/prepared.h"
+#include "scene/meshlets.h"
 
 /* The part of a facet's geometry that depends on direction. Lengths are scaled, as in
    lrcs_prepared. */
@@ -45,6 +45,7 @@ typedef struct lrcsi_view {
     double unit[3]; /* direction / length, rounded; and with unit_low to 2^-100 */
     double unit_low[3];
     signed char *facing;      /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
+    lrcsi_facet_signs cast;   /* facet: its facing if it can be visible and hide others, else 0 */
     lrcsi_view_vertex *point; /* vertex */
     double scale;             /* a power of two; coordinates of the bulk of the scene times scale
                                  are below 1 */
@@ -100,10 +101,7 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
    not redundant in this view. Else 0. */
 static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
 {
-    int facing = view->facing[facet];
-    int redundant = view->prepared->redundant[facet];
-    return (facing > 0 && redundant != LRCSI_REDUNDANT) ||
-           (facing < 0 && redundant == LRCSI_NOT_REDUNDANT && view->backs.cast);
+    return view->cast.facet[facet] != 0;
 }
 
 /* 1 if a facet, if visible, reflects towards the laser; else 0. */
@@ -143,6 +141,15 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
 static inline double lrcsi_view_dot(double x, double y, double z, const double d[3])
 {
     return (x * d[0] + y * d[1]) + z * d[2];
+}
+
+/* The range of lrcsi_view_dot of the unit normals of a ball. */
+static inline void lrcsi_view_dot_range(const lrcsi_normal_ball *ball, const double d[3],
+                                        double *low, double *high)
+{
+    const double dot = lrcsi_view_dot(ball->middle[0], ball->middle[1], ball->middle[2], d);
+    *low = dot - ball->radius;
+    *high = dot + ball->radius;
 }
 
 /* View coordinates of a scene point. */

@@ -5,6 +5,8 @@
 
 #include "scene/prepare.h"
 #include "scenes.h"
+#include "view/product.h"
+#include "view/view.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -78,6 +80,54 @@ static void normals_and_areas_are_within_their_errors(void **state)
     }
 }
 
+/* The products of a ball's normals with any direction are in its range, and those of neighbouring
+   facets that face alike are known to. */
+static void balls_hold_their_normals(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    uint32_t decided = 0;
+    uint32_t tried = 0;
+    for (int sphere = 0; sphere < 2; sphere++) {
+        const lrcs_prepared *p = random_scene(500);
+        if (sphere) {
+            scene_start(&scene);
+            scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 88);
+            p = scene_prepare(&scene, &work);
+        }
+        const lrcsi_batches *b = &p->batches;
+        for (int i = 0; i < 200; i++) {
+            lrcs_pose pose;
+            lrcsi_view view;
+            lrcs_work after = work;
+            const double d[3] = {(double)random_below(&seed, 2001) - 999.5,
+                                 (double)random_below(&seed, 2001) - 1000,
+                                 i % 2 ? 0 : (double)random_below(&seed, 2001) - 1000.5};
+            assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+            assert_int_equal(lrcsi_view_make(p, &pose, &after, &view), LRCS_OK);
+            uint32_t front = 0;
+            for (uint32_t at = 0; at < b->count; at++) {
+                double low;
+                double high;
+                double dot =
+                    lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], view.unit);
+                lrcsi_view_dot_range(&b->ball[at / LRCSI_LANES], view.unit, &low, &high);
+                assert_true(low <= dot && dot <= high);
+                decided += low > 0 || high < 0;
+                tried++;
+                const lrcsi_normal *n = &p->normal[b->facet[at]];
+                double product = lrcsi_product_dot(n->high, n->low, view.direction);
+                if (fabs(product) > 1e-12 * n->length * view.length) {
+                    assert_int_equal(view.facing[b->facet[at]], product > 0 ? 1 : -1);
+                }
+                front += view.facing[b->facet[at]] > 0;
+            }
+            assert_int_equal(front, view.front);
+        }
+        assert_true(!sphere || decided > tried / 5);
+    }
+}
+
 static void beyond_the_last_there_are_zeros(void **state)
 {
     (void)state;
@@ -96,6 +146,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(facets_stand_by_material_in_their_order),
         cmocka_unit_test(normals_and_areas_are_within_their_errors),
+        cmocka_unit_test(balls_hold_their_normals),
         cmocka_unit_test(beyond_the_last_there_are_zeros),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,8 @@
 /* Meshlets of facets: their boxes, what is connected within one, and the sides that leave it. */
 #include "scene/prepare.h"
 
+#include "scene/meshlets.h"
+
 #include "base/disjoint.h"
 #include "scenes.h"
 
@@ -118,11 +120,51 @@ static void single_facets_are_runs(void **state)
     }
 }
 
+/* The sign of a meshlet is that of all its facets, or LRCSI_MESHLET_MIXED. */
+static void signs_of_meshlets_are_those_of_their_facets(void **state)
+{
+    (void)state;
+    static unsigned char memory[4096];
+    for (uint32_t count = 1; count < 70; count++) {
+        lrcs_work some = lrcs_work_make(memory, sizeof memory);
+        lrcsi_facet_signs signs;
+        lrcsi_facet_signs copy;
+        memset(memory, 1, sizeof memory);
+        assert_true(lrcsi_facet_signs_take(count, &some, &signs));
+        assert_true(lrcsi_facet_signs_take(count, &some, &copy));
+        for (uint32_t f = 0; f < count; f++) {
+            int alike = f / LRCSI_MESHLET_FACETS != 1;
+            signs.facet[f] =
+                (signed char)(alike ? (int)(count % 3) - 1 : (int)random_below(&seed, 3) - 1);
+        }
+        lrcsi_facet_signs_finish(count, &signs);
+        lrcsi_facet_signs_copy(count, &signs, &copy);
+        size_t room = lrcsi_meshlets_room(count);
+        assert_memory_equal(copy.facet, signs.facet, room + 1);
+        for (uint32_t f = count; f <= room; f++) {
+            assert_int_equal(signs.facet[f], 0);
+        }
+        for (uint32_t m = 0; m < lrcsi_meshlets_count(count); m++) {
+            const signed char *own = signs.facet + (size_t)m * LRCSI_MESHLET_FACETS;
+            int alike = 1;
+            for (uint32_t i = 1; i < LRCSI_MESHLET_FACETS; i++) {
+                alike &= own[i] == own[0];
+            }
+            assert_int_equal(signs.meshlet[m], alike ? own[0] : LRCSI_MESHLET_MIXED);
+            assert_int_equal(copy.meshlet[m], signs.meshlet[m]);
+        }
+        lrcsi_facet_signs_clear(&copy, count - 1);
+        assert_int_equal(copy.facet[count - 1], 0);
+        assert_int_equal(copy.meshlet[(count - 1) / LRCSI_MESHLET_FACETS], LRCSI_MESHLET_MIXED);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(runs_connect_what_edges_connect),
         cmocka_unit_test(single_facets_are_runs),
+        cmocka_unit_test(signs_of_meshlets_are_those_of_their_facets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

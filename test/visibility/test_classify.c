@@ -233,8 +233,8 @@ static void check_joins(void)
         events += (uint32_t)listed;
         if (kind == LRCSI_EDGE_JOINS) {
             lrcsi_disjoint_union(component, on.facet[0], on.facet[1]);
-            if (classification.joinable[on.facet[0]] != 0 &&
-                classification.joinable[on.facet[1]] != 0) {
+            if (classification.joinable.facet[on.facet[0]] != 0 &&
+                classification.joinable.facet[on.facet[1]] != 0) {
                 lrcsi_disjoint_union(region, on.facet[0], on.facet[1]);
             }
         }
@@ -461,8 +461,8 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
     (void)state;
     static unsigned char reads[SCENE_FACETS];
     static uint32_t region[SCENE_FACETS]; /* no facet is the first of its region */
-    static signed char
-        joinable[SCENE_FACETS + LRCSI_MESHLET_FACETS]; /* no meshlet is of one region */
+    static signed char none[SCENE_FACETS + LRCSI_MESHLET_FACETS];
+    const lrcsi_facet_signs joinable = {none, none}; /* no meshlet is of one region */
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
@@ -473,7 +473,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
             reads[f] = f % every == 0;
             region[f] = LRCS_NONE;
         }
-        const lrcsi_grid_readers readers = {reads, region, joinable};
+        const lrcsi_grid_readers readers = {reads, region, &joinable};
         lrcs_work after = work;
         assert_int_equal(lrcsi_grid_facets(&classification.search.grid,
                                            &classification.search.boxes, &readers, &after, &some),

@@ -171,9 +171,7 @@ static void grids_are_made_coarser_for_large_facets(void **state)
     stacked_triangles(40);
     lrcsi_view view = view_of_scene(&work);
     lrcsi_boxes boxes;
-    signed char cast[41];
-    memset(cast, 1, sizeof cast);
-    assert_int_equal(lrcsi_boxes_make(&view, cast, &work, &boxes), LRCS_OK);
+    assert_int_equal(lrcsi_boxes_make(&view, &work, &boxes), LRCS_OK);
     lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     assert_int_equal(grid.size, 64); /* no facet's box is made */
@@ -208,9 +206,10 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
     (void)state;
     static unsigned char all[512];
     static uint32_t region[512];
-    static signed char joinable[512 + LRCSI_MESHLET_FACETS];
+    static signed char none[512 + LRCSI_MESHLET_FACETS];
+    const lrcsi_facet_signs joinable = {none, none};
     memset(all, 1, sizeof all);
-    const lrcsi_grid_readers readers = {all, region, joinable};
+    const lrcsi_grid_readers readers = {all, region, &joinable};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
         stacked_triangles(count);

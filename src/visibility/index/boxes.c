@@ -45,8 +45,7 @@ void lrcsi_boxes_meshlet_bounds(const lrcsi_view *view, const lrcsi_meshlet *mes
     }
 }
 
-int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                     lrcsi_boxes *boxes)
+int lrcsi_boxes_make(const lrcsi_view *view, lrcs_work *work, lrcsi_boxes *boxes)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
@@ -59,7 +58,7 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
         return LRCS_E_MEMORY;
     }
     for (uint32_t m = 0; m < p->meshlets.count; m++) {
-        if (cast[(size_t)m * LRCSI_MESHLET_FACETS] != 0 || !lrcsi_meshlet_alike(cast, m)) {
+        if (view->cast.meshlet[m] != 0) {
             double low[3];
             double high[3];
             lrcsi_boxes_meshlet_bounds(view, &p->meshlets.meshlet[m], low, high);

@@ -32,10 +32,8 @@ static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, 
 /* Bytes at most. */
 size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 
-/* Makes the boxes of meshlets. Given: cast[], as for lrcsi_events_make. Status: LRCS_OK;
-   LRCS_E_MEMORY. They stay in the work area. */
-int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                     lrcsi_boxes *boxes);
+/* Makes the boxes of meshlets. Status: LRCS_OK; LRCS_E_MEMORY. They stay in the work area. */
+int lrcsi_boxes_make(const lrcsi_view *view, lrcs_work *work, lrcsi_boxes *boxes);
 
 /* Bounds of the view coordinates of all facets of a meshlet. */
 void lrcsi_boxes_meshlet_bounds(const lrcsi_view *view, const lrcsi_meshlet *meshlet, double low[3],

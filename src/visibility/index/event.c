@@ -39,16 +39,15 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
-/* Do all facets of the meshlets around a meshlet have the same value as all of its own facets? */
-static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t meshlet)
+/* Do all facets of the meshlets around a meshlet have the same sign as all of its own facets? */
+static int meshlet_surrounded(const lrcs_prepared *p, const lrcsi_facet_signs *cast,
+                              uint32_t meshlet)
 {
-    signed char own = value[(size_t)meshlet * LRCSI_MESHLET_FACETS];
+    const signed char own = cast->meshlet[meshlet];
     for (uint32_t i = p->meshlets.first_link[meshlet]; i < p->meshlets.first_link[meshlet + 1];
          i++) {
         uint32_t other = p->meshlets.link[i];
-        if (other == LRCS_NONE ? own != 0
-                               : value[(size_t)other * LRCSI_MESHLET_FACETS] != own ||
-                                     !lrcsi_meshlet_alike(value, other)) {
+        if ((other == LRCS_NONE ? 0 : cast->meshlet[other]) != own) {
             return 0;
         }
     }
@@ -56,15 +55,16 @@ static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, 
 }
 
 /* Marks events among the plain edges: those of facets of which at least one can hide others, and
-   that do not continue each other. A meshlet whose facets all have the same value as those around
+   that do not continue each other. A meshlet whose facets all have the same sign as those around
    it has none. */
-static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
+static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, uint32_t *mark)
 {
+    const signed char *cast = signs->facet;
     uint32_t count = p->scene->facet_count;
     for (uint32_t m = 0; m < p->meshlets.count; m++) {
         uint32_t start = m * LRCSI_MESHLET_FACETS;
         uint32_t end = lrcsi_meshlet_end(start, count);
-        int alike = lrcsi_meshlet_alike(cast, m);
+        int alike = signs->meshlet[m] != LRCSI_MESHLET_MIXED;
         for (uint32_t f = start; f < end && !alike; f++) {
             for (int k = 0; k < 3; k++) {
                 uint32_t other = p->neighbours.facet[f].corner[k];
@@ -74,7 +74,7 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
                 }
             }
         }
-        if (alike && meshlet_surrounded(p, cast, m)) {
+        if (alike && meshlet_surrounded(p, signs, m)) {
             continue;
         }
         for (uint32_t i = p->meshlets.meshlet[m].first_side;
@@ -96,8 +96,7 @@ size_t lrcsi_events_need(const lrcs_prepared *prepared)
 
 /* 1. Takes room for as many events as there are edges. 2. Marks events among plain edges, then
    among irregular ones. 3. Lists the marked edges, and returns the room that is not needed. */
-int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                      lrcsi_events *events)
+int lrcsi_events_make(const lrcsi_view *view, lrcs_work *work, lrcsi_events *events)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcsi_neighbours *neighbours = &p->neighbours;
@@ -109,7 +108,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
         work->used = start;
         return LRCS_E_MEMORY;
     }
-    mark_plain(p, cast, mark);
+    mark_plain(p, &view->cast, mark);
     for (uint32_t i = 0; i < neighbours->irregular_count; i++) {
         lrcsi_edge_facets on;
         if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, &on) ==
@@ -134,7 +133,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* The entry of a facet in group[]: in a meshlet whose facets are all joined, that of the first one.
  */
-static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *joinable,
+static inline uint32_t group_entry(const lrcs_prepared *p, const lrcsi_facet_signs *joinable,
                                    uint32_t facet)
 {
     uint32_t meshlet = facet / LRCSI_MESHLET_FACETS;
@@ -145,7 +144,7 @@ static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *jo
 
 /* Sets group[facet] to the first facet of its group. Groups are named by their first facets, which
    are in this meshlet or in earlier meshlets that are finished already. */
-static void groups_name(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
+static void groups_name(const lrcs_prepared *p, const lrcsi_facet_signs *joinable, uint32_t *group)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t m = 0; m < p->meshlets.count; m++) {
@@ -170,22 +169,23 @@ static void groups_name(const lrcs_prepared *p, const signed char *joinable, uin
    joined as a whole is represented by its first facet. It is joined to the meshlets to which its
    sides lead; side by side only if one of these is joined in part. 2. Joins facets across irregular
    edges. 3. Names the groups. */
-void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
+void lrcsi_events_join(const lrcsi_view *view, const lrcsi_facet_signs *joinable, uint32_t *group)
 {
+    const signed char *sign = joinable->facet;
     const lrcs_prepared *p = view->prepared;
     const lrcsi_meshlets *meshlets = &p->meshlets;
     for (uint32_t m = 0; m < meshlets->count; m++) {
         const uint32_t start = m * LRCSI_MESHLET_FACETS;
         const uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
         const int joined = lrcsi_events_joined(p, joinable, m);
-        const int alike = lrcsi_meshlet_alike(joinable, m);
+        const int alike = joinable->meshlet[m] != LRCSI_MESHLET_MIXED;
         int by_sides = joined == LRCSI_JOINED_SOME;
         group[start] = start;
         for (uint32_t f = start; f < end && joined == LRCSI_JOINED_SOME; f++) {
             group[f] = alike ? start + meshlets->first[f] : f;
-            for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
+            for (int k = 0; k < 3 && !alike && sign[f] != 0; k++) {
                 uint32_t other = p->neighbours.facet[f].corner[k];
-                if (other >= start && other < f && joinable[other] == joinable[f]) {
+                if (other >= start && other < f && sign[other] == sign[f]) {
                     lrcsi_disjoint_union(group, other, f);
                 }
             }
@@ -195,16 +195,15 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
             uint32_t other = meshlets->link[i];
             int its = other < m ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
             by_sides = its == LRCSI_JOINED_SOME;
-            if (its == LRCSI_JOINED_ALL &&
-                joinable[(size_t)other * LRCSI_MESHLET_FACETS] == joinable[start]) {
+            if (its == LRCSI_JOINED_ALL && joinable->meshlet[other] == joinable->meshlet[m]) {
                 lrcsi_disjoint_union(group, other * LRCSI_MESHLET_FACETS, start);
             }
         }
         for (uint32_t i = meshlets->meshlet[m].first_side;
              by_sides && i < meshlets->meshlet[m + 1].first_side; i++) {
             const lrcsi_meshlet_side *side = &meshlets->side[i];
-            if (side->other < side->facet && joinable[side->facet] != 0 &&
-                joinable[side->other] == joinable[side->facet]) {
+            if (side->other < side->facet && sign[side->facet] != 0 &&
+                sign[side->other] == sign[side->facet]) {
                 lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
                                      group_entry(p, joinable, side->facet));
             }
@@ -214,7 +213,7 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         lrcsi_edge_facets on;
         if (lrcsi_edge_kind_of(view, p->neighbours.irregular[i], LRCS_NONE, &on) ==
                 LRCSI_EDGE_JOINS &&
-            joinable[on.facet[0]] != 0 && joinable[on.facet[1]] != 0) {
+            sign[on.facet[0]] != 0 && sign[on.facet[1]] != 0) {
             lrcsi_disjoint_union(group, group_entry(p, joinable, on.facet[0]),
                                  group_entry(p, joinable, on.facet[1]));
         }

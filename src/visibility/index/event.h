@@ -78,11 +78,8 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part,
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 
-/* Given: cast[facet], the direction in which it faces (1 or -1) if it can hide something, otherwise
-   0; after the last facet zeros that fill its meshlet, and one more (lrcsi_meshlets_room).
-   Returned: events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                      lrcsi_events *events);
+/* Returned: events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_events_make(const lrcsi_view *view, lrcs_work *work, lrcsi_events *events);
 
 /* What lrcsi_events_join does with the facets of a meshlet. */
 enum lrcsi_join {
@@ -91,18 +88,18 @@ enum lrcsi_join {
     LRCSI_JOINED_SOME  /* joins some of them, or all, which is not known in advance */
 };
 
-static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char *joinable,
+static inline int lrcsi_events_joined(const lrcs_prepared *p, const lrcsi_facet_signs *joinable,
                                       uint32_t meshlet)
 {
-    return !lrcsi_meshlet_alike(joinable, meshlet)                 ? LRCSI_JOINED_SOME
-           : joinable[(size_t)meshlet * LRCSI_MESHLET_FACETS] == 0 ? LRCSI_JOINED_NONE
-           : p->meshlets.whole[meshlet]                            ? LRCSI_JOINED_ALL
-                                                                   : LRCSI_JOINED_SOME;
+    const int sign = joinable->meshlet[meshlet];
+    return sign == 0                                                   ? LRCSI_JOINED_NONE
+           : sign != LRCSI_MESHLET_MIXED && p->meshlets.whole[meshlet] ? LRCSI_JOINED_ALL
+                                                                       : LRCSI_JOINED_SOME;
 }
 
 /* Joins facets into groups (base/disjoint.h) across all edges that are not event edges.
-   Given: joinable[facet], as `cast`, but also 0 for facets that are not to be joined. Returned: the
+   Given: joinable, as view->cast, but also 0 for facets that are not to be joined. Returned: the
    first facet of each facet's group; group[] has lrcsi_meshlets_room entries. */
-void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
+void lrcsi_events_join(const lrcsi_view *view, const lrcsi_facet_signs *joinable, uint32_t *group);
 
 #endif

@@ -152,9 +152,9 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 /* The facets around which a grid is going to be searched, so that its lists must be complete there:
    those that are marked and, unless region is NULL, the first of each region. */
 typedef struct lrcsi_grid_readers {
-    const unsigned char *undecided; /* of each facet: is it marked? */
-    const uint32_t *region;         /* of each facet: the first facet of its region */
-    const signed char *joinable;    /* of each facet (visibility/uniform/classify.h); with region */
+    const unsigned char *undecided;    /* of each facet: is it marked? */
+    const uint32_t *region;            /* of each facet: the first facet of its region */
+    const lrcsi_facet_signs *joinable; /* visibility/uniform/classify.h; with region */
 } lrcsi_grid_readers;
 
 /* A grid of the facets that can hide something, in at most as many buckets as another grid: it

@@ -26,6 +26,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/outward.h"
 #include "base/sort.h"
 #include "base/work.h"
 #include "view/side.h"
@@ -101,61 +102,51 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
 
 /* --- meshlets --------------------------------------------------------------------------------- */
 
-/* The corners in the view of the facets of a meshlet that can hide others. */
-typedef struct meshlet_corners {
-    uint32_t count; /* 0: not gathered yet */
-    double err;     /* no coordinate of any of them has a larger error */
-    double x[3 * LRCSI_MESHLET_FACETS], y[3 * LRCSI_MESHLET_FACETS];
-} meshlet_corners;
+/* The box of a meshlet in scene coordinates: where its middle is in the view, and half its
+   sides. */
+typedef struct meshlet_box {
+    int known;
+    double middle[3], err; /* err: of each coordinate */
+    double half[3];
+} meshlet_box;
 
-/* Leaves out the corners that a facet shares with the one before it: most of them. */
-static void meshlet_gather(const lrcsi_classification *c, uint32_t meshlet,
-                           meshlet_corners *corners)
+static void meshlet_measure(const lrcsi_view *view, uint32_t meshlet, meshlet_box *box)
 {
-    const lrcs_scene *scene = c->view->prepared->scene;
-    const uint32_t end = lrcsi_meshlet_end(meshlet * LRCSI_MESHLET_FACETS, scene->facet_count);
-    uint32_t before[3] = {LRCS_NONE, LRCS_NONE, LRCS_NONE};
-    uint32_t count = 0;
-    corners->err = 0;
-    for (uint32_t f = meshlet * LRCSI_MESHLET_FACETS; f < end; f++) {
-        if (c->cast[f] == 0) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            const uint32_t v = scene->facet[f].corner[k];
-            const lrcsi_view_vertex *at = &c->view->point[v];
-            corners->x[count] = at->x[0];
-            corners->y[count] = at->x[1];
-            corners->err = lrcsi_max(corners->err, at->err);
-            count += v != before[0] && v != before[1] && v != before[2];
-        }
-        memcpy(before, scene->facet[f].corner, sizeof before);
+    const lrcsi_meshlet *m = &view->prepared->meshlets.meshlet[meshlet];
+    double middle[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (m->low[k] + m->high[k]);
+        box->half[k] = LRCSI_OUTWARD(2) * lrcsi_max(m->high[k] - middle[k], middle[k] - m->low[k]);
     }
-    corners->count = count;
+    lrcsi_view_coordinates(view, middle, box->middle);
+    box->err = lrcsi_view_point_err(box->middle);
+    box->known = 1;
 }
 
-/* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
-   a facet of the meshlet nor runs along a side? The error of each cross product is that of
-   lrcsi_view_side_orient, which increases with the distance and with the error of the point: the
-   largest of both bound the errors of all. */
-static int event_beside_meshlet(const lrcsi_view *view, const meshlet_corners *corners,
-                                uint32_t edge)
+/* Does a meshlet lie strictly on one side of the line of an event edge, so that the edge neither
+   crosses a facet of it nor runs along a side? Let t be the direction of the line, with an error of
+   e >= 10 u |t| in each coordinate, m the middle of the box, and h half its sides. A point m + d
+   lies to the left of the line by the cross product of t and m, plus w . d, where
+   w = t_x R_1 - t_y R_0 and |w . d| <= sum |w_k| h_k. The error of w_k is 2 e due to t, since
+   |R_1k| + |R_0k| is at most 2, and 0.8 e due to the rows, whose error is 4 u, and to three
+   roundings. That of the sum is then 3.4 e sum h, rounding included. Twice the error of the cross
+   product, computed for a distance that is 2 sum h larger, exceeds its own error by 6 e sum h. */
+static int event_beside_meshlet(const lrcsi_view *view, const meshlet_box *box, uint32_t edge)
 {
     const lrcsi_edge *e = &view->prepared->topology.edge[edge];
     const lrcsi_view_side line = lrcsi_view_side_of(view, e->low, e->high);
-    double least = HUGE_VAL;
-    double most = -HUGE_VAL;
-    double distance = 0;
-    for (uint32_t i = 0; i < corners->count; i++) {
-        double x = corners->x[i] - line.at[0];
-        double y = corners->y[i] - line.at[1];
-        double cross = line.to[0] * y - line.to[1] * x;
-        lrcsi_range_extend(cross, &least, &most);
-        distance = lrcsi_max(distance, fabs(x) + fabs(y));
+    const double *t = line.to;
+    const double x = box->middle[0] - line.at[0];
+    const double y = box->middle[1] - line.at[1];
+    const double cross = t[0] * y - t[1] * x;
+    double distance = fabs(x) + fabs(y);
+    double extent = 0;
+    for (int k = 0; k < 3; k++) {
+        extent += fabs(t[0] * view->R[1][k] - t[1] * view->R[0][k]) * box->half[k];
+        distance += 2 * box->half[k];
     }
-    double cross_err =
-        lrcsi_view_cross_err(line.length, line.to_err, distance, line.at_err + corners->err);
-    return least > cross_err || most < -cross_err;
+    return fabs(cross) > extent + 2 * lrcsi_view_cross_err(line.length, line.to_err, distance,
+                                                           line.at_err + box->err);
 }
 
 /* Is it proved that no event edge crosses any facet of a meshlet, nor runs along a side of one in
@@ -171,9 +162,7 @@ static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcs
     const uint32_t search = lrcsi_event_search_begin(&c->search);
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
     uint32_t steps = MESHLET_STEPS;
-    meshlet_corners corners;
-    corners.count = 0;
-    corners.err = 0;
+    meshlet_box around = {.known = 0};
     lrcsi_grid_items items;
     while (lrcsi_grid_next_row(grid, &buckets, &items)) {
         const uint32_t listed = items.to - items.from;
@@ -187,10 +176,10 @@ static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcs
                 lrcsi_view_box_beside(&event->box, &box) || event->last_search == search) {
                 continue;
             }
-            if (corners.count == 0) {
-                meshlet_gather(c, meshlet, &corners);
+            if (!around.known) {
+                meshlet_measure(c->view, meshlet, &around);
             }
-            if (!event_beside_meshlet(c->view, &corners, event->edge)) {
+            if (!event_beside_meshlet(c->view, &around, event->edge)) {
                 (void)lrcsi_meter_take(meter, 1 + i - items.from);
                 return 0;
             }
@@ -229,7 +218,7 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
         uint32_t end = lrcsi_meshlet_end(m * LRCSI_MESHLET_FACETS, p->scene->facet_count);
         for (uint32_t f = m * LRCSI_MESHLET_FACETS;
              f < end && c->search.boxes.state[m] == LRCSI_BOXES_FACETS; f++) {
-            if (c->cast[f] == 0) {
+            if (!lrcsi_view_casts(c->view, f)) {
                 continue;
             }
             int along_side = 0;
@@ -237,7 +226,7 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
                               lrcsi_crossings_possible(&c->search, f, meter, &along_side);
             c->undecided_count += c->undecided[f];
             if (c->undecided[f] || along_side || p->intersections.met[f]) {
-                c->joinable[f] = 0;
+                lrcsi_facet_signs_clear(&c->joinable, f);
             }
         }
     }
@@ -246,18 +235,7 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
 
 void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region)
 {
-    lrcsi_events_join(classification->view, classification->joinable, region);
-}
-
-/* The direction in which each facet faces if it can hide others, otherwise 0; zeros after the last
-   one. */
-static void facets_cast(const lrcsi_view *view, signed char *cast)
-{
-    uint32_t count = view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
-        cast[f] = lrcsi_view_casts(view, f) ? view->facing[f] : 0;
-    }
-    memset(cast + count, 0, lrcsi_meshlets_room(count) + 1 - count);
+    lrcsi_events_join(classification->view, &classification->joinable, region);
 }
 
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)
@@ -265,7 +243,8 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
     size_t room = lrcsi_meshlets_room(prepared->scene->facet_count);
-    size_t need = lrcsi_work_add(lrcsi_work_blocks(2, room + 1, 1), lrcsi_work_bytes(facets, 1));
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, 1),
+                                 lrcsi_facet_signs_need(prepared->scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(room, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
@@ -274,9 +253,8 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 }
 
 /* The grid of events has about one bucket for every facet that can hide others: then most facets
-   meet no bucket that lists an event, and need no further test. Called: facets_cast,
-   lrcsi_boxes_make, lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide.
- */
+   meet no bucket that lists an event, and need no further test. Called: lrcsi_boxes_make,
+   lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide. */
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification)
 {
@@ -286,19 +264,16 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     lrcsi_classification c = {.view = view, .search = {.view = view}};
     c.search.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
     c.undecided = lrcsi_work_take_zero(work, count, 1);
-    c.cast = lrcsi_work_take(work, room + 1, 1);
-    c.joinable = lrcsi_work_take(work, room + 1, 1);
     c.search.component = c.component = lrcsi_work_take(work, room, sizeof *c.component);
-    int status = c.undecided && c.cast && c.joinable && c.component ? LRCS_OK : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        facets_cast(view, c.cast);
-        status = lrcsi_boxes_make(view, c.cast, work, &c.search.boxes);
-    }
-    status = status == LRCS_OK ? lrcsi_events_make(view, c.cast, work, &c.events) : status;
+    int status = c.undecided && c.component && lrcsi_facet_signs_take(count, work, &c.joinable)
+                     ? LRCS_OK
+                     : LRCS_E_MEMORY;
+    status = status == LRCS_OK ? lrcsi_boxes_make(view, work, &c.search.boxes) : status;
+    status = status == LRCS_OK ? lrcsi_events_make(view, work, &c.events) : status;
     status = status == LRCS_OK ? events_sort(&c, work) : status;
     if (status == LRCS_OK) {
-        lrcsi_events_join(view, c.cast, c.component);
-        memcpy(c.joinable, c.cast, room + 1); /* until a facet is known not to be */
+        lrcsi_events_join(view, &view->cast, c.component);
+        lrcsi_facet_signs_copy(count, &view->cast, &c.joinable); /* all, until tested */
         status = facets_decide(&c, meter, work);
     }
     if (status != LRCS_OK) {

@@ -17,13 +17,12 @@ typedef struct lrcsi_classification {
     lrcsi_events events;       /* nearest first, by their boxes */
     lrcsi_event_search search; /* with the boxes of undecided facets, and of others that were
                                   tested */
-    signed char *cast;         /* facet: its facing if it can hide others, otherwise 0 */
     uint32_t *component;       /* facet: the first facet of its component; itself if it can hide
                                   nothing */
     unsigned char *undecided;  /* facet: 1 undecided; 0 uniform, or it has no area in this view */
     uint32_t undecided_count;
-    signed char *joinable; /* facet: its facing if it is uniform and nothing runs along its sides,
-                              otherwise 0 */
+    lrcsi_facet_signs joinable; /* facet: as view->cast, but 0 if it is undecided, or if something
+                                   runs along one of its sides */
 } lrcsi_classification;
 
 /* Bytes at most. */

@@ -216,7 +216,7 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
         return LRCS_E_MEMORY;
     }
     lrcsi_classify_regions(classification, region);
-    const lrcsi_grid_readers readers = {undecided, region, classification->joinable};
+    const lrcsi_grid_readers readers = {undecided, region, &classification->joinable};
     int status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
                                    &readers, work, facets);
     if (status != LRCS_OK) {
@@ -225,7 +225,7 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
     for (uint32_t m = 0; m < p->meshlets.count; m++) {
         uint32_t start = m * LRCSI_MESHLET_FACETS;
         uint32_t end = lrcsi_meshlet_end(start, count);
-        int one_region = lrcsi_events_joined(p, classification->joinable, m) == LRCSI_JOINED_ALL;
+        int one_region = lrcsi_events_joined(p, &classification->joinable, m) == LRCSI_JOINED_ALL;
         memset(answer + start, LRCSI_QUERY_HIDDEN, end - start);
         if (classification->search.boxes.state[m] == LRCSI_BOXES_NONE) {
             continue; /* no facet of the meshlet can be visible */
