@@ -90,8 +90,8 @@ lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *p, uint32_t
     }
     double sine;
     double cosine;
-    lrcsi_degrees_sincos((2.0 * patch.sector + 1.0) * 180.0 / part->divisions.around, &sine,
-                         &cosine);
+    lrcsi_degrees_sincos_plain((2.0 * patch.sector + 1.0) * 180.0 / part->divisions.around, &sine,
+                               &cosine);
     d.known = 1;
     for (int k = 0; k < 3; k++) {
         d.bound[k] = ldexp(part->bounds.displacement[k], -p->exponent) * LRCSI_OUTWARD_NANO;

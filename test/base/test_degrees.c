@@ -43,6 +43,30 @@ static void doubles_are_within_half_an_ulp_or_so(void **state)
     }
 }
 
+static void plain_doubles_are_within_their_error(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
+        if (vectors[i].more == 0.0) {
+            double s, c;
+            lrcsi_degrees_sincos_plain(vectors[i].deg, &s, &c);
+            check_abs(s - vectors[i].sine, 0.0, 0x1p-50);
+            check_abs(c - vectors[i].cosine, 0.0, 0x1p-50);
+        }
+    }
+    for (int n = 3; n < 3000; n += 7) { /* the azimuths of a body's sectors */
+        for (int k = 0; k < n; k++) {
+            lrcsi_dd want_s, want_c;
+            double s, c;
+            double deg = (2.0 * k + 1.0) * 180.0 / n;
+            lrcsi_degrees_sincos_dd(deg, 0.0, &want_s, &want_c);
+            lrcsi_degrees_sincos_plain(deg, &s, &c);
+            check_abs(s - want_s.hi, 0.0, 0x1p-50);
+            check_abs(c - want_c.hi, 0.0, 0x1p-50);
+        }
+    }
+}
+
 static void sums_keep_twenty_eight_digits(void **state)
 {
     (void)state;
@@ -61,6 +85,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(multiples_of_thirty_and_ninety_are_exact),
         cmocka_unit_test(doubles_are_within_half_an_ulp_or_so),
+        cmocka_unit_test(plain_doubles_are_within_their_error),
         cmocka_unit_test(sums_keep_twenty_eight_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
