@@ -211,7 +211,8 @@ static void clipping_without_memory_gives_way_to_a_raster_for_that_reason(void *
     unsigned rasters = 0;
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 60);
-    scene_sphere(&scene, (const double[3]){0.5, 0.2, 3}, 0.4, 20);
+    scene_plate(&scene, (const double[3]){-2, -2, 0.1}, (const double[3]){4, 0, 0.2},
+                (const double[3]){0, 4, 0.1}); /* meets many facets: clipping takes more memory */
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.2, 1}, &pose), LRCS_OK);
     lrcs_run_options options = lrcs_run_options_default();

@@ -101,7 +101,15 @@ static void make_turned(int n)
     }
 }
 
-enum { HATCH, STACK, BOOK, STAR, ZIGZAG, TURNED };
+/* A plate behind a sphere with n facets around. */
+static void make_sphere(int n)
+{
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, (uint32_t)n);
+    scene_plate(&scene, (const double[3]){-3, -3, -4}, (const double[3]){6, 0, 0},
+                (const double[3]){0, 6, 0});
+}
+
+enum { HATCH, STACK, BOOK, STAR, ZIGZAG, TURNED, SPHERE };
 
 static uint64_t steps_of(int kind, int n, const double direction[3])
 {
@@ -123,8 +131,11 @@ static uint64_t steps_of(int kind, int n, const double direction[3])
     case ZIGZAG:
         make_zigzag(n);
         break;
-    default:
+    case TURNED:
         make_turned(n);
+        break;
+    default:
+        make_sphere(n);
         break;
     }
     lrcs_result r = scene_run(&scene, direction, LRCS_METHOD_EXACT, 0);
@@ -187,6 +198,14 @@ static void turned_stack_takes_linear_steps(void **state)
     check_growth(TURNED, 1000, (const double[3]){0, 0, 1}, 670000, 2.6);
 }
 
+/* 1.3e6, and 6.8 times those of a quarter of the facets: every cell along the edge of the shadow was
+   compared with all facets of the sphere. */
+static void cells_of_a_large_facet_are_compared_with_the_facets_before_them(void **state)
+{
+    (void)state;
+    check_growth(SPHERE, 88, oblique, 245000, 4.6);
+}
+
 /* The steps of an open wall alone, scaled unevenly, into which the laser looks. */
 static uint64_t wall_steps(int kind)
 {
@@ -238,6 +257,7 @@ int main(void)
         cmocka_unit_test(book_hides_its_pages_once),
         cmocka_unit_test(star_hides_its_folds_once),
         cmocka_unit_test(zigzag_hides_its_folds_once),
+        cmocka_unit_test(cells_of_a_large_facet_are_compared_with_the_facets_before_them),
         cmocka_unit_test(turned_stack_takes_linear_steps),
         cmocka_unit_test(open_wall_hides_its_inside_once),
     };

@@ -191,7 +191,7 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
     lrcsi_division *d = &cells->division;
     while (d->stack_count > 0) {
         lrcsi_cell cell = d->stack[--d->stack_count];
-        uint64_t steps = (uint64_t)1 + cells->candidate_count + cell.segment_count;
+        uint64_t steps = (uint64_t)1 + cell.segment_count; /* samples count theirs */
         if (cells->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
             leave_area_undecided(cells, lrcsi_clip_area(&cell.shape));
             continue;
@@ -243,8 +243,9 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Room for the sides of so many candidates; those of others are computed anew each time. */
-#define MAX_SIDES 65536u
+/* Room for the sides of so many candidates; those of others are computed anew each time. Heuristic:
+   most facets have fewer. */
+#define MAX_SIDES 256u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
    last. */
 #define SINGLE_FACET_LISTS (LRCSI_CELL_STACK + 2)

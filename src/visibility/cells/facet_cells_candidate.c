@@ -14,12 +14,6 @@
 
 /* --- candidates ------------------------------------------------------------------------------- */
 
-/* May a facet be in front of f? */
-static int is_candidate(const lrcsi_facet_cells *cells, uint32_t other)
-{
-    return lrcsi_marked(&cells->listed, other) && cells->order[other] != LRCSI_ORDER_DISJOINT;
-}
-
 /* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
    overlap. */
 int lrcsi_facet_cells_order(const lrcsi_facet_cells *cells, uint32_t other)
@@ -128,7 +122,7 @@ static int edge_is_behind(lrcsi_facet_cells *cells, const uint32_t owner[2])
 {
     int behind = 1;
     for (int i = 0; i < 2 && behind; i++) {
-        if (owner[i] != LRCS_NONE && is_candidate(cells, owner[i])) {
+        if (owner[i] != LRCS_NONE && lrcsi_facet_cells_is_candidate(cells, owner[i])) {
             unsigned char *order = &cells->order[owner[i]];
             if (*order == LRCSI_ORDER_NOT_COMPUTED) {
                 *order = (unsigned char)lrcsi_facet_cells_order(cells, owner[i]);
@@ -214,7 +208,7 @@ int lrcsi_facet_cells_segments(lrcsi_facet_cells *cells)
     for (uint32_t i = intersections->first[cells->facet];
          i < intersections->first[cells->facet + 1]; i++) {
         const lrcsi_intersection *contact = &intersections->entry[i];
-        if (is_candidate(cells, contact->other) &&
+        if (lrcsi_facet_cells_is_candidate(cells, contact->other) &&
             lrcsi_sample_contact_hides(d->view, cells->facet, contact) &&
             !add_facet_contact(cells, contact->other)) {
             return 0;

@@ -152,20 +152,16 @@ static void sides_make(const lrcsi_facet_cells *cells, uint32_t other,
 }
 
 /* Does a candidate cover the sample? 1 certainly, -1 certainly not, 0 the sample is too near a
-   side. The sides are computed when they are first needed, and kept as far as there is room. In a
-   needle, whose points have the frame's position error, lines in plain doubles nearly always
-   suffice. */
+   side. The sides are computed when they are first needed (sides[0].err < 0). In a needle, whose
+   points have the frame's position error, lines in plain doubles nearly always suffice. */
 static int sides_cover(lrcsi_facet_cells *cells, const lrcsi_facet_cells_sample *sample,
-                       uint32_t candidate, double tolerance)
+                       uint32_t other, lrcsi_facet_cells_side sides[3], double tolerance)
 {
     const lrcsi_needle *needle = cells->frame.needle;
     const lrcsi_view *view = cells->division.view;
-    uint32_t other = cells->candidate[candidate];
     if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
-    lrcsi_facet_cells_side made[3] = {{.err = -1}};
-    lrcsi_facet_cells_side *sides = candidate < cells->side_room ? cells->side[candidate] : made;
     if (sides[0].err < 0) {
         sides_make(cells, other, sides);
     }
@@ -207,46 +203,99 @@ static int candidate_in_front(const lrcsi_facet_cells *cells,
     return order == LRCSI_ORDER_FRONT ? 1 : order == LRCSI_ORDER_BEHIND ? -1 : 0;
 }
 
-/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
-   a segment of the component with the fewest segments in the cell; a component with none ends the
-   search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
-static int sample_is_hidden(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
-                            const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
+/* Is f hidden at a sample, as far as it is known? */
+typedef struct sample_answer {
+    int hidden;    /* 1 yes, 0 no, -1 it cannot be decided */
+    uint32_t last; /* the component last found in front of f; LRCS_NONE: none */
+} sample_answer;
+
+/* Includes one candidate in the answer. Boxes exclude most candidates. The depth order, which takes
+   longest, is computed last. */
+static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
+                           uint32_t other, lrcsi_facet_cells_side sides[3],
+                           lrcsi_facet_cells_sample *sample, sample_answer *answer)
 {
-    uint32_t last = LRCS_NONE;
-    int answer = 0;
-    sample->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < cells->candidate_count && sample->ends > 0; i++) {
-        uint32_t other = cells->candidate[i];
-        uint32_t component = cells->classification->component[other];
-        unsigned char *order = &cells->order[other];
-        if (*order == LRCSI_ORDER_BEHIND ||
-            lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
-            (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
-            continue;
-        }
-        int covered = sides_cover(cells, sample, i, s->tolerance);
-        if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
-            *order = (unsigned char)lrcsi_facet_cells_order(cells, other);
-        }
-        int front = covered >= 0 ? candidate_in_front(cells, sample, other, s->tolerance) : -1;
-        if (front < 0 || (answer > 0 && component == last)) {
-            continue;
-        }
-        if (front == 0 || covered == 0) {
-            answer = answer > 0 ? answer : -1;
-            continue;
-        }
-        const lrcsi_cells_segment *cut;
-        uint32_t ends = lrcsi_facet_cells_choose(cells, cell, sample->at, component, &cut);
-        if (ends < sample->ends) {
-            sample->ends = ends;
-            sample->cut = cut;
-        }
-        last = component;
-        answer = 1;
+    uint32_t component = cells->classification->component[other];
+    unsigned char *order = &cells->order[other];
+    if (*order == LRCSI_ORDER_BEHIND ||
+        lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
+        (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
+        return;
     }
-    return answer;
+    int covered = sides_cover(cells, sample, other, sides, tolerance);
+    if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
+        *order = (unsigned char)lrcsi_facet_cells_order(cells, other);
+    }
+    int front = covered >= 0 ? candidate_in_front(cells, sample, other, tolerance) : -1;
+    if (front < 0 || (answer->hidden > 0 && component == answer->last)) {
+        return;
+    }
+    if (front == 0 || covered == 0) {
+        answer->hidden = answer->hidden > 0 ? answer->hidden : -1;
+        return;
+    }
+    const lrcsi_cells_segment *cut;
+    uint32_t ends = lrcsi_facet_cells_choose(cells, cell, sample->at, component, &cut);
+    if (ends < sample->ends) {
+        sample->ends = ends;
+        sample->cut = cut;
+    }
+    *answer = (sample_answer){1, component};
+}
+
+/* Compares all candidates. */
+static void sample_compare_all(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
+                               lrcsi_facet_cells_sample *sample, sample_answer *answer)
+{
+    for (uint32_t i = 0; i < cells->candidate_count && sample->ends > 0; i++) {
+        lrcsi_facet_cells_side made[3];
+        made[0].err = -1;
+        sample_compare(cells, cell, tolerance, cells->candidate[i],
+                       i < cells->side_room ? cells->side[i] : made, sample, answer);
+    }
+}
+
+/* Compares those that the grid lists at the sample. */
+static void sample_compare_listed(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
+                                  double tolerance, lrcsi_grid_rect buckets,
+                                  lrcsi_facet_cells_sample *sample, sample_answer *answer)
+{
+    const lrcsi_grid *grid = &cells->grid;
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+        for (uint32_t i = items.from; i < items.to && sample->ends > 0; i++) {
+            lrcsi_facet_cells_side made[3];
+            made[0].err = -1;
+            if (lrcsi_facet_cells_is_candidate(cells, grid->item[i])) {
+                sample_compare(cells, cell, tolerance, grid->item[i], made, sample, answer);
+            }
+        }
+    }
+}
+
+/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided, or the meter is spent. If it is
+   hidden, sample->cut is a segment of the component with the fewest segments in the cell; a
+   component with none ends the search. A large facet may have many candidates, but few at any
+   point: if there are more than those of which the sides are kept, only those that the grid lists
+   at the sample are compared, unless they are even more. */
+static int sample_is_hidden(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
+                            lrcsi_facet_cells_sample *sample)
+{
+    const lrcsi_grid_rect buckets = lrcsi_grid_buckets(&cells->grid, &sample->box);
+    const uint32_t all = cells->candidate_count;
+    const uint32_t listed =
+        all > cells->side_room ? lrcsi_grid_listed(&cells->grid, buckets) : LRCS_NONE;
+    sample_answer answer = {0, LRCS_NONE};
+    sample->ends = LRCS_NONE;
+    if (!lrcsi_meter_take(cells->division.meter, listed < all ? listed : all)) {
+        return -1;
+    }
+    if (listed < all) {
+        sample_compare_listed(cells, cell, tolerance, buckets, sample, &answer);
+    } else {
+        sample_compare_all(cells, cell, tolerance, sample, &answer);
+    }
+    return answer.hidden;
 }
 
 void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
@@ -263,14 +312,14 @@ void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *c
             continue;
         }
         sample_place(cells, sample);
-        hidden = sample_is_hidden(cells, cell, s, sample);
+        hidden = sample_is_hidden(cells, cell, s->tolerance, sample);
         if (hidden < 0 && !cells->frame.needle &&
             sample->border_distance > margin + unproject_err) {
             sample_unproject(cells, sample);
             sample->err = unproject_err;
             sample_place(cells, sample);
             sample->border_distance -= unproject_err;
-            hidden = sample_is_hidden(cells, cell, s, sample);
+            hidden = sample_is_hidden(cells, cell, s->tolerance, sample);
         }
     }
     int guess = hidden;
@@ -280,7 +329,7 @@ void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *c
         sample_unproject(cells, sample);
         sample->test = LRCSI_TEST_GUESSED;
         sample_place(cells, sample);
-        guess = sample_is_hidden(cells, cell, s, sample) > 0;
+        guess = sample_is_hidden(cells, cell, s->tolerance, sample) > 0;
     }
     sample->hidden = hidden;
     sample->guess = guess;

@@ -62,4 +62,10 @@ typedef struct lrcsi_facet_cells {
     int hidden;               /* 1 if some of f is hidden */
 } lrcsi_facet_cells;
 
+/* May a facet be in front of f? */
+static inline int lrcsi_facet_cells_is_candidate(const lrcsi_facet_cells *cells, uint32_t other)
+{
+    return lrcsi_marked(&cells->listed, other) && cells->order[other] != LRCSI_ORDER_DISJOINT;
+}
+
 #endif

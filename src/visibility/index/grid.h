@@ -113,6 +113,17 @@ static inline int lrcsi_grid_next_row(const lrcsi_grid *grid, lrcsi_grid_rect *r
     return 1;
 }
 
+/* The number of items of these buckets, each counted once for each bucket that lists it. */
+static inline uint32_t lrcsi_grid_listed(const lrcsi_grid *grid, lrcsi_grid_rect rect)
+{
+    uint32_t listed = 0;
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &rect, &items)) {
+        listed += items.to - items.from;
+    }
+    return listed;
+}
+
 /* Do these buckets list any item? */
 static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_grid_rect rect)
 {
