@@ -243,15 +243,26 @@ static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, dou
     *answer = (sample_answer){1, component};
 }
 
+/* The same for a candidate of which the sides are not kept. */
+static void sample_compare_once(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
+                                uint32_t other, lrcsi_facet_cells_sample *sample,
+                                sample_answer *answer)
+{
+    lrcsi_facet_cells_side made[3] = {{.err = -1}};
+    sample_compare(cells, cell, tolerance, other, made, sample, answer);
+}
+
 /* Compares all candidates. */
 static void sample_compare_all(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                                lrcsi_facet_cells_sample *sample, sample_answer *answer)
 {
     for (uint32_t i = 0; i < cells->candidate_count && sample->ends > 0; i++) {
-        lrcsi_facet_cells_side made[3];
-        made[0].err = -1;
-        sample_compare(cells, cell, tolerance, cells->candidate[i],
-                       i < cells->side_room ? cells->side[i] : made, sample, answer);
+        if (i < cells->side_room) {
+            sample_compare(cells, cell, tolerance, cells->candidate[i], cells->side[i], sample,
+                           answer);
+        } else {
+            sample_compare_once(cells, cell, tolerance, cells->candidate[i], sample, answer);
+        }
     }
 }
 
@@ -264,10 +275,8 @@ static void sample_compare_listed(lrcsi_facet_cells *cells, const lrcsi_cell *ce
     lrcsi_grid_items items;
     while (lrcsi_grid_next_row(grid, &buckets, &items)) {
         for (uint32_t i = items.from; i < items.to && sample->ends > 0; i++) {
-            lrcsi_facet_cells_side made[3];
-            made[0].err = -1;
             if (lrcsi_facet_cells_is_candidate(cells, grid->item[i])) {
-                sample_compare(cells, cell, tolerance, grid->item[i], made, sample, answer);
+                sample_compare_once(cells, cell, tolerance, grid->item[i], sample, answer);
             }
         }
     }
