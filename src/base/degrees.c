@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Sine and cosine of degrees. It decides how an angle is reduced, exactly, to within 45 degrees of
-   a multiple of 90, and sums the two series in double-double; libm is not used. */
+   a multiple of 90, and sums the two series in double-double, or in doubles where that suffices; no
+   sine of libm is used. */
 #include "base/degrees.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ void lrcsi_degrees_sincos_dd(double deg, double addend, lrcsi_dd *sine, lrcsi_dd
     *cosine = quadrant == 1 || quadrant == 2 ? lrcsi_dd_negate(out_c) : out_c;
 }
 
-/* The series as above. The angle has a relative error of 1.1 u, and with y <= 0.62 the terms left
+/* The series as above. The angle has a relative error of 1.2 u, and with y <= 0.62 the terms left
    out are below 2^-60; each level halves the error of the one inside at least, and adds 2 u. */
 static double plain_series(double y, int n)
 {

@@ -11,12 +11,13 @@
    values; zeros are +0. */
 void lrcsi_degrees_sincos(double deg, double *sine, double *cosine);
 
-/* In plain doubles, a tenth of the time: absolute error at most 2^-50 each. */
-void lrcsi_degrees_sincos_plain(double deg, double *sine, double *cosine);
-
 /* The same for the exact sum deg + addend, |deg| + |addend| < 2^1000, in double-double: relative
    error at most 2^-96 each, so that sums of angles lose no accuracy near a multiple of 90. A sine
    or cosine below 2^-960 has a relative error up to 2^-53. */
 void lrcsi_degrees_sincos_dd(double deg, double addend, lrcsi_dd *sine, lrcsi_dd *cosine);
+
+/* Of deg, in plain doubles, in a tenth of the time: absolute error at most 2^-50 each; zeros have
+   either sign. */
+void lrcsi_degrees_sincos_plain(double deg, double *sine, double *cosine);
 
 #endif

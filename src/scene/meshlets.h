@@ -5,6 +5,8 @@
 #ifndef LRCSI_MESHLETS_H
 #define LRCSI_MESHLETS_H
 
+#include "base/outward.h"
+#include "base/range.h"
 #include "scene/prepared.h"
 
 size_t lrcsi_meshlets_need(uint32_t facet_count);
@@ -13,9 +15,21 @@ size_t lrcsi_meshlets_need(uint32_t facet_count);
    The result stays in the work area. Linear time. */
 int lrcsi_meshlets_make(const lrcs_prepared *prepared, lrcs_work *work, lrcsi_meshlets *meshlets);
 
-/* What a view knows of each facet: -1, 0 or 1; and of each meshlet: that number if its facets all
-   have the same one, else LRCSI_MESHLET_MIXED. After the last facet there are zeros that fill its
-   meshlet, and one more. */
+/* The middle of a meshlet's box, rounded, and how far its points are from there at most along each
+   axis. */
+static inline void lrcsi_meshlet_middle(const lrcsi_meshlet *meshlet, double middle[3],
+                                        double half[3])
+{
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (meshlet->low[k] + meshlet->high[k]);
+        half[k] =
+            LRCSI_OUTWARD(2) * lrcsi_max(meshlet->high[k] - middle[k], middle[k] - meshlet->low[k]);
+    }
+}
+
+/* What a view knows of each facet: -1, 0 or 1; and of each meshlet: the number that all of its
+   facets have, or LRCSI_MESHLET_MIXED if they may differ. After the last facet there are zeros that
+   fill its meshlet and count as its facets, and one more. */
 enum { LRCSI_MESHLET_MIXED = 2 };
 typedef struct lrcsi_facet_signs {
     signed char *facet, *meshlet;

@@ -46,9 +46,9 @@ typedef struct lrcsi_neighbours {
     uint32_t irregular_count;
 } lrcsi_neighbours;
 
-/* The unit normals of LRCSI_LANES elements of the batches are within `radius` of `middle`. The
-   radius includes 2^-46, more than what rounding adds to the product of one of them and a unit
-   direction. */
+/* The unit normals of LRCSI_LANES elements of the batches, or of the last ones, are within `radius`
+   of `middle`. The radius includes 2^-46, more than what rounding adds to the product of one of
+   them and a unit direction. */
 typedef struct lrcsi_normal_ball {
     double middle[3], radius;
     int consecutive; /* 1 if their facets follow one another in the scene */

@@ -286,17 +286,21 @@ static void sample_compare_listed(lrcsi_facet_cells *cells, const lrcsi_cell *ce
    hidden, sample->cut is a segment of the component with the fewest segments in the cell; a
    component with none ends the search. A large facet may have many candidates, but few at any
    point: if there are more than those of which the sides are kept, only those that the grid lists
-   at the sample are compared, unless they are even more. */
+   at the sample are compared, unless they are even more. What covers the sample is listed: the
+   sample lies in f and in its own box, and the lists of the buckets of f's box are complete. */
 static int sample_is_hidden(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                             lrcsi_facet_cells_sample *sample)
 {
     const lrcsi_grid_rect buckets = lrcsi_grid_buckets(&cells->grid, &sample->box);
+    lrcsi_meter *meter = cells->division.meter;
     const uint32_t all = cells->candidate_count;
-    const uint32_t listed =
-        all > cells->side_room ? lrcsi_grid_listed(&cells->grid, buckets) : LRCS_NONE;
+    uint32_t listed = LRCS_NONE;
     sample_answer answer = {0, LRCS_NONE};
     sample->ends = LRCS_NONE;
-    if (!lrcsi_meter_take(cells->division.meter, listed < all ? listed : all)) {
+    if (all > cells->side_room && lrcsi_meter_take(meter, buckets.y1 - buckets.y0)) {
+        listed = lrcsi_grid_listed(&cells->grid, buckets);
+    }
+    if (!lrcsi_meter_take(meter, listed < all ? listed : all)) {
         return -1;
     }
     if (listed < all) {

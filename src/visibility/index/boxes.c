@@ -5,8 +5,6 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "base/outward.h"
-#include "base/range.h"
 #include "base/work.h"
 #include "scene/meshlets.h"
 
@@ -29,11 +27,7 @@ void lrcsi_boxes_meshlet_bounds(const lrcsi_view *view, const lrcsi_meshlet *mes
     double middle[3];
     double half[3];
     double x[3];
-    for (int k = 0; k < 3; k++) {
-        middle[k] = 0.5 * (meshlet->low[k] + meshlet->high[k]);
-        half[k] =
-            LRCSI_OUTWARD(2) * lrcsi_max(meshlet->high[k] - middle[k], middle[k] - meshlet->low[k]);
-    }
+    lrcsi_meshlet_middle(meshlet, middle, half);
     lrcsi_view_coordinates(view, middle, x);
     double err = lrcsi_view_point_err(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
     for (int k = 0; k < 3; k++) {

@@ -85,7 +85,7 @@ int lrcsi_events_make(const lrcsi_view *view, lrcs_work *work, lrcsi_events *eve
 enum lrcsi_join {
     LRCSI_JOINED_NONE, /* joins none of them */
     LRCSI_JOINED_ALL,  /* joins all of them into one group */
-    LRCSI_JOINED_SOME  /* joins some of them, or all, which is not known in advance */
+    LRCSI_JOINED_SOME  /* joins some, all or none, which is not known in advance */
 };
 
 static inline int lrcsi_events_joined(const lrcs_prepared *p, const lrcsi_facet_signs *joinable,

@@ -26,7 +26,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/outward.h"
 #include "base/sort.h"
 #include "base/work.h"
 #include "view/side.h"
@@ -112,12 +111,8 @@ typedef struct meshlet_box {
 
 static void meshlet_measure(const lrcsi_view *view, uint32_t meshlet, meshlet_box *box)
 {
-    const lrcsi_meshlet *m = &view->prepared->meshlets.meshlet[meshlet];
     double middle[3];
-    for (int k = 0; k < 3; k++) {
-        middle[k] = 0.5 * (m->low[k] + m->high[k]);
-        box->half[k] = LRCSI_OUTWARD(2) * lrcsi_max(m->high[k] - middle[k], middle[k] - m->low[k]);
-    }
+    lrcsi_meshlet_middle(&view->prepared->meshlets.meshlet[meshlet], middle, box->half);
     lrcsi_view_coordinates(view, middle, box->middle);
     box->err = lrcsi_view_point_err(box->middle);
     box->known = 1;
