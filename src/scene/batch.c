@@ -79,7 +79,7 @@ static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
 /* The ball around the unit normals of `count` elements: about the middle of their box. */
 static lrcsi_normal_ball normal_ball(const lrcsi_batches *b, uint32_t start, uint32_t count)
 {
-    lrcsi_normal_ball ball = {.radius = 0, .consecutive = 1};
+    lrcsi_normal_ball ball = {.radius = 0};
     for (int k = 0; k < 3; k++) {
         double low = HUGE_VAL;
         double high = -HUGE_VAL;
@@ -92,7 +92,6 @@ static lrcsi_normal_ball normal_ball(const lrcsi_batches *b, uint32_t start, uin
         const double from[3] = {b->normal[0][i] - ball.middle[0], b->normal[1][i] - ball.middle[1],
                                 b->normal[2][i] - ball.middle[2]};
         ball.radius = lrcsi_max(ball.radius, sqrt(lrcsi_vec3_dot(from, from)));
-        ball.consecutive &= b->facet[i] == b->facet[start] + (i - start);
     }
     ball.radius += 0x1p-46;
     return ball;

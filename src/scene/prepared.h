@@ -51,7 +51,6 @@ typedef struct lrcsi_neighbours {
    them and a unit direction. */
 typedef struct lrcsi_normal_ball {
     double middle[3], radius;
-    int consecutive; /* 1 if their facets follow one another in the scene */
 } lrcsi_normal_ball;
 
 /* Facets that are not skipped, sorted by material, and by index within one. A packet of LRCSI_LANES

@@ -227,16 +227,11 @@ double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y)
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
-/* Makes all facets of a ball face the same way. */
-static void facings_alike(lrcsi_view *view, const lrcsi_normal_ball *ball, const uint32_t *facet,
-                          uint32_t count, int facing)
+/* Makes all of these facets face the same way. */
+static void facings_alike(lrcsi_view *view, const uint32_t *facet, uint32_t count, int facing)
 {
-    if (ball->consecutive) {
-        memset(view->facing + facet[0], facing, count);
-    } else {
-        for (uint32_t i = 0; i < count; i++) {
-            view->facing[facet[i]] = (signed char)facing;
-        }
+    for (uint32_t i = 0; i < count; i++) {
+        view->facing[facet[i]] = (signed char)facing;
     }
     view->front += facing > 0 ? count : 0;
     view->back += facing < 0 ? count : 0;
@@ -258,10 +253,9 @@ static void view_facings(lrcsi_view *view)
         const uint32_t count = lrcsi_batch_lanes(place, b->count);
         double low;
         double high;
-        const lrcsi_normal_ball *ball = &b->ball[place / LRCSI_LANES];
-        lrcsi_view_dot_range(ball, d, &low, &high);
+        lrcsi_view_dot_range(&b->ball[place / LRCSI_LANES], d, &low, &high);
         if (low > LRCSI_DOT_ERROR || high < -LRCSI_DOT_ERROR) {
-            facings_alike(view, ball, facet, count, low > 0 ? 1 : -1);
+            facings_alike(view, facet, count, low > 0 ? 1 : -1);
             continue;
         }
         const double *x = b->normal[0] + place;

@@ -193,7 +193,7 @@ static int poses_measure(void *context, bench_cell_put *put, void *to)
             break;
         }
         if (i >= 0) { /* first_measure leaves its own memory in the caches */
-            status = pose_run(c, (i + 1) % BENCH_DIRECTIONS, &work, &result);
+            (void)pose_run(c, (i + 1) % BENCH_DIRECTIONS, &work, &result);
         }
         bench_sample sample = {.cpu = bench_now_ms(), .wall = bench_wall_ms()};
         status = pose_run(c, i < 0 ? 0 : i % BENCH_DIRECTIONS, &work, &result);
