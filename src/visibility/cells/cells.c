@@ -83,7 +83,7 @@ static int cell_is_wanted(const cells_job *job, const lrcsi_cell *cell)
     const lrcsi_blocks *b = &job->blocks;
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t f = cell->facet[i];
-        if (b->division.wanted[f] && (b->finding[f] & LRCSI_FINDING_UNDECIDED) == 0) {
+        if (b->division.wanted[f] && (b->record_finding[f] & LRCSI_FINDING_UNDECIDED) == 0) {
             return 1;
         }
     }
@@ -138,7 +138,7 @@ static void add_visible_area(cells_job *job, const lrcsi_cell *cell, const lrcsi
     }
     area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
     if (job->moment && piece.count >= 3) {
-        add_visible_moment(&job->moment[facet], &job->reach[facet], f, &piece);
+        add_visible_moment(&job->moment[f->facet], &job->reach[f->facet], f, &piece);
     }
 }
 
@@ -154,7 +154,7 @@ static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip
             continue;
         }
         int visible = surface && lrcsi_marked(&surface->foreground, f);
-        b->finding[f] |= visible ? LRCSI_FINDING_VISIBLE : LRCSI_FINDING_HIDDEN;
+        b->record_finding[f] |= visible ? LRCSI_FINDING_VISIBLE : LRCSI_FINDING_HIDDEN;
         b->division.area[f].uncertainty += uncertainty;
         if (visible) {
             add_visible_area(job, cell, s, f);
@@ -173,14 +173,13 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcs
                                              const lrcsi_clip_sides *s, int choice,
                                              const lrcsi_cells_surface *surface)
 {
-    const lrcsi_topology *topology = &d->view->prepared->topology;
     const lrcsi_cells_segment *best = NULL;
     double best_score = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         if (choice == CUT_ANY || (choice == CUT_EDGES && !e->contact) ||
             (choice == CUT_FOREGROUND &&
-             lrcsi_cells_segment_marked(topology, e, &surface->foreground))) {
+             lrcsi_division_segment_marked(d, e, &surface->foreground))) {
             double range[2];
             double extent = 0;
             for (int k = 0; k < 2; k++) {
@@ -200,7 +199,7 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcs
 static void add_finding(lrcsi_blocks *b, const lrcsi_cell *cell, int finding)
 {
     for (uint32_t i = 0; i < cell->facet_count; i++) {
-        b->finding[cell->facet[i]] |= (unsigned char)finding;
+        b->record_finding[cell->facet[i]] |= (unsigned char)finding;
     }
 }
 
@@ -275,8 +274,9 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
 static void leave_block_undecided(lrcsi_blocks *b, size_t block)
 {
     const lrcsi_block_lists *facets = &b->grid.facets;
-    for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
-        b->finding[facets->item[i]] |= LRCSI_FINDING_UNDECIDED;
+    uint32_t count = facets->first[block + 1] - facets->first[block];
+    for (uint32_t record = 1; record <= count; record++) {
+        b->record_finding[record] |= LRCSI_FINDING_UNDECIDED;
     }
 }
 
@@ -284,11 +284,31 @@ static int block_is_wanted(const lrcsi_blocks *b, size_t block)
 {
     const lrcsi_block_lists *facets = &b->grid.facets;
     for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
-        if (b->division.wanted[facets->item[i]]) {
+        if (b->wanted[facets->item[i]]) {
             return 1;
         }
     }
     return 0;
+}
+
+/* Processes the cells of a block. Returns 0 if that takes long and decides little, or the meter is
+   spent. */
+static int process_cells(cells_job *job)
+{
+    lrcsi_division *d = &job->blocks.division;
+    lrcsi_cell cell = d->stack[0];
+    uint64_t steps_left =
+        STEPS_CONSTANT + STEPS_PER_ITEM * (uint64_t)(cell.facet_count + cell.segment_count);
+    while (d->stack_count > 0) {
+        cell = d->stack[--d->stack_count];
+        uint64_t steps = (uint64_t)1 + cell.facet_count + cell.segment_count;
+        if (steps > steps_left || !lrcsi_meter_take(d->meter, steps)) {
+            return 0;
+        }
+        steps_left -= steps;
+        steps_left += process_cell(job, &cell) ? STEPS_PER_CELL : 0;
+    }
+    return 1;
 }
 
 static void process_block(cells_job *job, uint32_t x, uint32_t y)
@@ -302,24 +322,10 @@ static void process_block(cells_job *job, uint32_t x, uint32_t y)
     lrcsi_cell cell = {.cuts = 0};
     d->extent = lrcsi_block_grid_square(&b->grid, x, y, &cell.shape, b->frame.middle);
     b->frame.block = (uint32_t)block + 1;
-    lrcsi_cells_sample_clear(&job->sample, d->view->prepared->scene->facet_count);
-    if (!lrcsi_blocks_begin(b, block, &job->sample.listed, &cell)) {
-        leave_block_undecided(b, block);
-        return;
+    if (!lrcsi_blocks_begin(b, block, &cell) || !process_cells(job)) {
+        leave_block_undecided(b, block); /* its facets are processed one by one instead */
     }
-    /* If this takes long and decides little, the facets are processed one by one instead. */
-    uint64_t steps_left =
-        STEPS_CONSTANT + STEPS_PER_ITEM * (uint64_t)(cell.facet_count + cell.segment_count);
-    while (d->stack_count > 0) {
-        cell = d->stack[--d->stack_count];
-        uint64_t steps = (uint64_t)1 + cell.facet_count + cell.segment_count;
-        if (steps > steps_left || !lrcsi_meter_take(d->meter, steps)) {
-            leave_block_undecided(b, block);
-            return;
-        }
-        steps_left -= steps;
-        steps_left += process_cell(job, &cell) ? STEPS_PER_CELL : 0;
-    }
+    lrcsi_blocks_end(b, block);
 }
 
 /* --- all blocks ------------------------------------------------------------------------------- */
@@ -337,21 +343,21 @@ static double extent_of(const lrcs_prepared *p)
    strip 128 u of the diameter wide. Needles, and facets with a diameter of twice the extent or
    more, are much more accurate alone: for these there is only the first term, unless they represent
    a curved surface, from which they differ by far more. */
-static double facet_accuracy(const lrcsi_division *d, uint32_t facet, double projected,
-                             int as_single)
+static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double projected, int as_single)
 {
-    const lrcs_scene *scene = d->view->prepared->scene;
+    const lrcsi_view *view = b->division.view;
+    const lrcs_scene *scene = view->prepared->scene;
     const uint32_t *corner = scene->facet[facet].corner;
     double diameter = 0;
     for (int k = 0; k < 3; k++) {
-        const double *p = d->view->point[corner[k]].x;
-        const double *q = d->view->point[corner[(k + 1) % 3]].x;
+        const double *p = view->point[corner[k]].x;
+        const double *q = view->point[corner[(k + 1) % 3]].x;
         diameter = lrcsi_max3(diameter, fabs(p[0] - q[0]), fabs(p[1] - q[1]));
     }
-    double extent = extent_of(d->view->prepared);
+    double extent = extent_of(view->prepared);
     int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
-    double alone = LRCSI_U * diameter * (104 * diameter + 128 * d->area[facet].strip_length);
+    double alone = LRCSI_U * diameter * (104 * diameter + 128 * b->area[facet].strip_length);
     alone = as_single ? SINGLE_FACTOR * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
@@ -381,27 +387,28 @@ static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double r
 static uint32_t areas_report(cells_job *job, int as_single, unsigned char *found,
                              lrcsi_visible_area *visible)
 {
-    const lrcsi_division *d = &job->blocks.division;
+    const lrcsi_blocks *b = &job->blocks;
+    const lrcsi_view *view = b->division.view;
     uint32_t left = 0;
-    for (uint32_t f = 0; f < d->view->prepared->scene->facet_count; f++) {
-        int finding = job->blocks.finding[f];
-        if (!d->wanted[f] || found[f] || (finding & LRCSI_FINDING_UNDECIDED) != 0 || finding == 0) {
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        int finding = b->finding[f];
+        if (!b->wanted[f] || found[f] || (finding & LRCSI_FINDING_UNDECIDED) != 0 || finding == 0) {
             continue;
         }
-        const lrcsi_cell_area *a = &d->area[f];
-        double whole = lrcsi_view_projected(d->view, f);
+        const lrcsi_cell_area *a = &b->area[f];
+        double whole = lrcsi_view_projected(view, f);
         int some_visible = (finding & LRCSI_FINDING_VISIBLE) != 0;
         int some_hidden = (finding & LRCSI_FINDING_HIDDEN) != 0;
         double area = !some_hidden ? whole : !some_visible ? 0 : lrcsi_min(whole, a->visible);
         double err = a->uncertainty;
         err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * a->visible : 0;
-        if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(d, f, whole, as_single)) {
+        if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(b, f, whole, as_single)) {
             visible[f] = (lrcsi_visible_area){area, lrcsi_max(0, area - err),
                                               lrcsi_min(whole, area + err), 0, 0};
             found[f] = 1;
             if (job->moment) {
-                moment_report(d->view, &job->moment[f], job->reach[f], f,
-                              some_visible && some_hidden, err);
+                moment_report(view, &job->moment[f], job->reach[f], f, some_visible && some_hidden,
+                              err);
             }
         } else {
             left++;
@@ -416,15 +423,18 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
-    size_t need = lrcsi_work_blocks(2, facets, 1);
+    size_t records = facets + 1;
+    size_t need = lrcsi_work_add(lrcsi_work_blocks(2, facets, 1), lrcsi_work_blocks(2, records, 1));
     need = lrcsi_work_add(need, prepared->proximity.reach ? lrcsi_work_bytes(facets, sizeof(double))
                                                           : 0); /* moments are wanted only there */
     need = lrcsi_work_add(need, lrcsi_block_grid_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(records, sizeof(lrcsi_cells_facet)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(records, sizeof(lrcsi_cell_area)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cell_area)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(6, facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(6, records, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, BLOCK_FACET_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need,
                           lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
@@ -433,52 +443,75 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
 
-/* Allocates the arrays of a view, and lists its facets and events in blocks. 0 if the memory does
-   not suffice. */
-static int cells_allocate(const lrcsi_classification *classification, const unsigned char *answer,
-                          lrcs_work *work, cells_job *job)
+/* Allocates the arrays by facet, and those whose sizes do not depend on the blocks. 0 if the memory
+   does not suffice. */
+static int allocate_facets(lrcs_work *work, cells_job *job)
+{
+    lrcsi_blocks *b = &job->blocks;
+    lrcsi_division *d = &b->division;
+    const lrcs_scene *scene = d->view->prepared->scene;
+    uint32_t count = scene->facet_count;
+    job->reach = job->moment ? lrcsi_work_take_zero(work, count, sizeof *job->reach) : NULL;
+    b->finding = lrcsi_work_take_zero(work, count, 1);
+    b->coplanar = lrcsi_work_take_zero(work, count, 1);
+    b->area = lrcsi_work_take_zero(work, count, sizeof *b->area);
+    d->record = lrcsi_work_take_zero(work, count, sizeof *d->record);
+    b->frame.point = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *b->frame.point);
+    d->facet_lists_room = BLOCK_FACET_LISTS * (size_t)count;
+    d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
+    job->surface.border = lrcsi_work_take(work, LRCSI_SURFACE_BORDERS, sizeof *job->surface.border);
+    d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
+    return (!job->moment || job->reach) && b->finding && b->coplanar && b->area && d->record &&
+           b->frame.point && d->facet_lists && job->surface.border && d->stack;
+}
+
+/* Allocates the arrays by record and those of segments, for the largest block. */
+static int allocate_records(lrcs_work *work, cells_job *job)
 {
     lrcsi_blocks *b = &job->blocks;
     lrcsi_division *d = &b->division;
     lrcsi_cells_sample *sample = &job->sample;
     lrcsi_cells_surface *surface = &job->surface;
-    const lrcs_prepared *p = d->view->prepared;
-    uint32_t count = p->scene->facet_count;
-    job->reach = job->moment ? lrcsi_work_take_zero(work, count, sizeof *job->reach) : NULL;
-    b->finding = lrcsi_work_take_zero(work, count, 1);
-    b->kind = lrcsi_work_take_zero(work, count, 1);
-    d->facet = lrcsi_work_take(work, count, sizeof *d->facet);
-    d->area = lrcsi_work_take_zero(work, count, sizeof *d->area);
-    sample->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
-    sample->covers = lrcsi_work_take_zero(work, count, sizeof *sample->covers);
-    surface->foreground.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
-    surface->adjoining.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
-    b->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *b->frame.point);
-    surface->facet = lrcsi_work_take(work, count, sizeof *surface->facet);
-    sample->hit = lrcsi_work_take(work, count, sizeof *sample->hit);
-    d->facet_lists_room = BLOCK_FACET_LISTS * (size_t)count;
-    d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
-    surface->border = lrcsi_work_take(work, LRCSI_SURFACE_BORDERS, sizeof *surface->border);
-    d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
-    if ((job->moment && !job->reach) || !b->finding || !b->kind || !d->facet || !d->area ||
-        !sample->listed.entry || !sample->covers || !surface->foreground.entry ||
-        !surface->adjoining.entry || !b->frame.point || !surface->facet || !sample->hit ||
-        !d->facet_lists || !surface->border || !d->stack ||
+    size_t facets;
+    size_t segments;
+    lrcsi_blocks_max_lists(b, &facets, &segments);
+    size_t records = facets + 1;
+    d->record_room = (uint32_t)records;
+    d->segment_room = (uint32_t)segments;
+    d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * segments;
+    d->facet = lrcsi_work_take(work, records, sizeof *d->facet);
+    d->area = lrcsi_work_take(work, records, sizeof *d->area);
+    d->wanted = lrcsi_work_take(work, records, 1);
+    b->record_finding = lrcsi_work_take(work, records, 1);
+    sample->listed.entry = lrcsi_work_take_zero(work, records, sizeof(uint32_t));
+    sample->covers = lrcsi_work_take_zero(work, records, sizeof *sample->covers);
+    sample->hit = lrcsi_work_take(work, records, sizeof *sample->hit);
+    surface->foreground.entry = lrcsi_work_take_zero(work, records, sizeof(uint32_t));
+    surface->adjoining.entry = lrcsi_work_take_zero(work, records, sizeof(uint32_t));
+    surface->facet = lrcsi_work_take(work, records, sizeof *surface->facet);
+    d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
+    d->segment = lrcsi_work_take(work, segments, sizeof *d->segment);
+    return segments < LRCS_NONE && d->facet && d->area && d->wanted && b->record_finding &&
+           sample->listed.entry && sample->covers && sample->hit && surface->foreground.entry &&
+           surface->adjoining.entry && surface->facet && d->segment_lists && d->segment;
+}
+
+/* Lists the facets and events of a view in blocks, and allocates the arrays. 0 if the memory does
+   not suffice. */
+static int cells_allocate(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, cells_job *job)
+{
+    lrcsi_blocks *b = &job->blocks;
+    const lrcsi_view *view = b->division.view;
+    if (!allocate_facets(work, job) ||
         !lrcsi_block_grid_make(classification, answer, work, &b->grid)) {
         return 0;
     }
-    for (uint32_t f = 0; f < count; f++) {
-        b->kind[f] = lrcsi_view_casts(d->view, f) && lrcsi_cells_has_coplanar(d->view, f)
-                         ? LRCSI_FACET_COPLANAR
-                         : 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        b->coplanar[f] = lrcsi_view_casts(view, f) && lrcsi_cells_has_coplanar(view, f);
     }
-    size_t segments = lrcsi_blocks_max_segments(b);
-    d->segment_room = (uint32_t)segments;
-    d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * segments;
-    d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
-    d->segment = lrcsi_work_take(work, segments, sizeof *d->segment);
     lrcsi_cells_frame_make(&b->frame);
-    return segments < LRCS_NONE && d->segment_lists && d->segment;
+    return allocate_records(work, job);
 }
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
@@ -492,11 +525,9 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     double extent = extent_of(view->prepared);
     cells_job job = {.moment = moment};
     job.blocks.frame.view = view;
-    job.blocks.division =
-        (lrcsi_division){.view = view,
-                         .meter = meter,
-                         .wanted = wanted,
-                         .negligible = 0x1p-10 * ACCURACY_OF_SCENE * extent * extent};
+    job.blocks.wanted = wanted;
+    job.blocks.division = (lrcsi_division){
+        .view = view, .meter = meter, .negligible = 0x1p-10 * ACCURACY_OF_SCENE * extent * extent};
     memset(found, 0, view->prepared->scene->facet_count);
     if (cells_allocate(classification, answer, work, &job)) {
         uint32_t size = job.blocks.grid.size;

@@ -242,8 +242,7 @@ static int add_edge(lrcsi_blocks *b, uint32_t edge)
 /* 1 if no side of the facet counts as an event in cells only. */
 static int has_ordinary_sides(const lrcsi_blocks *b, uint32_t facet)
 {
-    return (b->kind[facet] & LRCSI_FACET_COPLANAR) == 0 &&
-           b->division.view->prepared->intersections.met[facet] <= 1;
+    return !b->coplanar[facet] && b->division.view->prepared->intersections.met[facet] <= 1;
 }
 
 /* Adds the sides of a facet that count as events in cells only: one of their two facets overlaps
@@ -256,7 +255,7 @@ static int add_cell_events(lrcsi_blocks *b, uint32_t facet)
     }
     for (int k = 0; k < 3; k++) {
         uint32_t other = lrcsi_cells_neighbour(view, facet, k);
-        if (other != LRCS_NONE && lrcsi_cells_connected(view, b->kind, facet, k) == LRCS_NONE &&
+        if (other != LRCS_NONE && lrcsi_cells_connected(view, b->coplanar, facet, k) == LRCS_NONE &&
             !add_edge(b, view->prepared->topology.facet_edge[facet].corner[k])) {
             return 0;
         }
@@ -264,17 +263,17 @@ static int add_cell_events(lrcsi_blocks *b, uint32_t facet)
     return 1;
 }
 
-/* Adds the segments along which other listed facets meet the interior of a facet. 0 if there is no
-   room. */
-static int add_contacts(lrcsi_blocks *b, const lrcsi_marks *listed, uint32_t facet)
+/* Adds the segments along which other facets of the block meet the interior of a facet. 0 if there
+   is no room. */
+static int add_contacts(lrcsi_blocks *b, uint32_t facet)
 {
-    const lrcsi_view *view = b->division.view;
+    lrcsi_division *d = &b->division;
+    const lrcsi_view *view = d->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     lrcsi_target target = {.view = NULL};
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
         uint32_t other = intersections->entry[i].other;
-        if (intersections->entry[i].kind != LRCSI_INTERSECTION_CROSS ||
-            !lrcsi_marked(listed, other) ||
+        if (intersections->entry[i].kind != LRCSI_INTERSECTION_CROSS || d->record[other] == 0 ||
             (other < facet && lrcsi_intersection_find(intersections, other, facet))) {
             continue;
         }
@@ -287,11 +286,11 @@ static int add_contacts(lrcsi_blocks *b, const lrcsi_marks *listed, uint32_t fac
             continue;
         }
         if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
-            b->kind[facet] |= LRCSI_FACET_UNKNOWN_CONTACT;
-            b->kind[other] |= LRCSI_FACET_UNKNOWN_CONTACT;
+            d->facet[d->record[facet]].unknown_contact = 1;
+            d->facet[d->record[other]].unknown_contact = 1;
             continue;
         }
-        lrcsi_cells_segment *e = lrcsi_division_segment(&b->division);
+        lrcsi_cells_segment *e = lrcsi_division_segment(d);
         if (!e) {
             return 0;
         }
@@ -307,8 +306,8 @@ static int add_contacts(lrcsi_blocks *b, const lrcsi_marks *listed, uint32_t fac
         }
         e->end[0][2] = e->end[1][2] = 0;
         e->err = origin->err + 32 * LRCSI_U * contact.reach + contact.position_err;
-        e->owner[0] = facet;
-        e->owner[1] = other;
+        e->owner[0] = d->record[facet];
+        e->owner[1] = d->record[other];
         e->contact = kind;
         e->line_err = e->err;
         e->length = lrcsi_line_through(e->end[0], e->end[1], e->line);
@@ -316,63 +315,100 @@ static int add_contacts(lrcsi_blocks *b, const lrcsi_marks *listed, uint32_t fac
     return 1;
 }
 
-size_t lrcsi_blocks_max_segments(const lrcsi_blocks *b)
+void lrcsi_blocks_max_lists(const lrcsi_blocks *b, size_t *max_facets, size_t *max_segments)
 {
     const lrcsi_intersections *intersections = &b->division.view->prepared->intersections;
     const lrcsi_block_lists *facets = &b->grid.facets;
     const lrcsi_block_lists *events = &b->grid.events;
-    size_t max = 0;
+    *max_facets = *max_segments = 0;
     for (size_t block = 0; block < (size_t)b->grid.size * b->grid.size; block++) {
-        size_t count = events->first[block + 1] - events->first[block];
+        size_t facet_count = facets->first[block + 1] - facets->first[block];
+        size_t segment_count = events->first[block + 1] - events->first[block];
         for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
             uint32_t f = facets->item[i];
-            count += intersections->first[f + 1] - intersections->first[f];
-            count += has_ordinary_sides(b, f) ? 0 : 3;
+            segment_count += intersections->first[f + 1] - intersections->first[f];
+            segment_count += has_ordinary_sides(b, f) ? 0 : 3;
         }
-        max = count > max ? count : max;
+        *max_facets = facet_count > *max_facets ? facet_count : *max_facets;
+        *max_segments = segment_count > *max_segments ? segment_count : *max_segments;
     }
-    return max;
 }
 
-/* 1. Lists the facets of the block, and makes their records. The neighbours of a facet are the same
-   in all blocks, and found once. 2. Lists the segments. */
-int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_marks *listed, lrcsi_cell *cell)
+/* Makes the record of a facet, number `record`. The other facets of the block have got the numbers
+   of theirs. */
+static void make_record(lrcsi_blocks *b, uint32_t facet, uint32_t record)
 {
     lrcsi_division *d = &b->division;
-    const lrcsi_view *view = d->view;
-    const lrcsi_topology *topology = &view->prepared->topology;
-    const lrcsi_block_lists *facets = &b->grid.facets;
+    lrcsi_cells_facet *f = &d->facet[record];
+    lrcsi_cells_facet_make(&b->frame, facet, f);
+    for (int k = 0; k < 3; k++) {
+        f->neighbour[k] = lrcsi_division_owner(
+            d, lrcsi_cells_connected(d->view, b->coplanar, facet,
+                                     lrcsi_cells_side_number(d->view, facet, k)));
+    }
+    f->owner = record;
+    d->facet_err = lrcsi_max(d->facet_err, f->err);
+    d->wanted[record] = b->wanted[facet];
+    d->area[record] = b->area[facet];
+    b->record_finding[record] =
+        b->finding[facet] | (unsigned char)(f->sliver ? LRCSI_FINDING_UNDECIDED : 0);
+}
+
+/* Adds the event edges of the block. An edge of none of the block's facets is hidden, or not near
+   the block. 0 if there is no room. */
+static int add_events(lrcsi_blocks *b, size_t block)
+{
     const lrcsi_block_lists *events = &b->grid.events;
+    const lrcsi_topology *topology = &b->division.view->prepared->topology;
+    for (uint32_t i = events->first[block]; i < events->first[block + 1]; i++) {
+        uint32_t edge = b->grid.classification->events.edge[events->item[i]];
+        const lrcsi_edge_use *use = topology->use + topology->edge[edge].first_use;
+        int listed = 0;
+        for (uint32_t k = 0; k < topology->edge[edge].uses && !listed; k++) {
+            listed = b->division.record[use[k].facet] != 0;
+        }
+        if (listed && !add_edge(b, edge)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_cell *cell)
+{
+    lrcsi_division *d = &b->division;
+    const lrcsi_block_lists *facets = &b->grid.facets;
+    const uint32_t *listed = facets->item + facets->first[block];
+    int room = 1;
     d->segment_count = 0;
     d->facet_err = 0;
     cell->facet = d->facet_lists;
-    for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
-        uint32_t index = facets->item[i];
-        lrcsi_cells_facet *f = &d->facet[index];
-        lrcsi_cells_facet_make(&b->frame, index, f);
-        b->finding[index] |= f->sliver ? LRCSI_FINDING_UNDECIDED : 0;
-        for (int k = 0; k < 3 && (b->kind[index] & LRCSI_FACET_NEIGHBOURS_FOUND) == 0; k++) {
-            f->neighbour[k] = lrcsi_cells_connected(view, b->kind, index,
-                                                    lrcsi_cells_side_number(view, index, k));
-        }
-        b->kind[index] |= LRCSI_FACET_NEIGHBOURS_FOUND;
-        cell->facet[cell->facet_count++] = index;
-        listed->entry[index] = listed->number;
-        d->facet_err = lrcsi_max(d->facet_err, f->err);
+    cell->facet_count = facets->first[block + 1] - facets->first[block];
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
+        cell->facet[i] = i + 1;
+        d->record[listed[i]] = i + 1;
     }
     for (uint32_t i = 0; i < cell->facet_count; i++) {
-        if (!add_contacts(b, listed, cell->facet[i]) || !add_cell_events(b, cell->facet[i])) {
-            return 0;
-        }
+        make_record(b, listed[i], i + 1);
     }
-    for (uint32_t i = events->first[block]; i < events->first[block + 1]; i++) {
-        uint32_t edge = b->grid.classification->events.edge[events->item[i]];
-        /* An edge without a listed facet is hidden, or not near the block. */
-        if (lrcsi_topology_edge_has(topology, edge, listed->entry, listed->number) &&
-            !add_edge(b, edge)) {
-            return 0;
-        }
+    for (uint32_t i = 0; i < cell->facet_count && room; i++) {
+        room = add_contacts(b, listed[i]) && add_cell_events(b, listed[i]);
+    }
+    if (!room || !add_events(b, block)) {
+        return 0;
     }
     lrcsi_division_start(d, cell);
     return 1;
+}
+
+void lrcsi_blocks_end(lrcsi_blocks *b, size_t block)
+{
+    lrcsi_division *d = &b->division;
+    const lrcsi_block_lists *facets = &b->grid.facets;
+    for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
+        uint32_t facet = facets->item[i];
+        b->area[facet] = d->area[d->record[facet]];
+        b->finding[facet] = b->record_finding[d->record[facet]];
+        d->record[facet] = 0;
+    }
 }

@@ -48,20 +48,27 @@ enum lrcsi_finding {
 /* A view that is divided into cells block by block. */
 typedef struct lrcsi_blocks {
     lrcsi_block_grid grid;
-    lrcsi_cells_frame frame; /* its vertices, relative to the middle of the current block */
-    unsigned char *kind;     /* facet: LRCSI_FACET_COPLANAR and so on
-                                (visibility/cells/cells_facet.h) */
-    unsigned char *finding;  /* facet: what was found of it so far (enum lrcsi_finding) */
-    lrcsi_division division; /* of the current block; records by the numbers of facets */
+    lrcsi_cells_frame frame;     /* its vertices, relative to the middle of the current block */
+    unsigned char *coplanar;     /* facet: lrcsi_cells_has_coplanar */
+    const unsigned char *wanted; /* facet: 1 if its area is wanted */
+    /* Facet: in all blocks that have ended: */
+    lrcsi_cell_area *area;
+    unsigned char *finding; /* bits of enum lrcsi_finding */
+    /* Of the current block, whose facets have records from 1 on: */
+    lrcsi_division division;
+    unsigned char *record_finding; /* record: with what was found in the blocks before */
 } lrcsi_blocks;
 
-/* The largest number of segments of a block, at most. Given: grid, kind, and the view. */
-size_t lrcsi_blocks_max_segments(const lrcsi_blocks *b);
+/* The largest numbers of facets and of segments of a block, at most. Given: grid, coplanar, and the
+   view. */
+void lrcsi_blocks_max_lists(const lrcsi_blocks *b, size_t *facets, size_t *segments);
 
 /* Begins to divide a block: makes the records of its facets and its segments, and the first cell,
    the only one that waits. Returns 0, and lists no segments, if there is no room. Given: the cell's
-   shape, the block's extent, and its middle and number in the frame; listed, in which the facets of
-   the block are marked. */
-int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_marks *listed, lrcsi_cell *cell);
+   shape, the block's extent, and its middle and number in the frame. */
+int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_cell *cell);
+
+/* Ends it: adds up what was found of its facets. */
+void lrcsi_blocks_end(lrcsi_blocks *b, size_t block);
 
 #endif

@@ -37,7 +37,7 @@
    segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both
    (lrcsi_intersection_along), or in a common plane. Such an edge, and every edge of a facet that
    has another facet in its plane, counts as an event edge, so that no component continues across
-   it. A facet with a contact that could not be computed (LRCSI_FACET_UNKNOWN_CONTACT) is never part
+   it. A facet with a contact that could not be computed (unknown_contact) is never part
    of a component that covers a cell. Contacts in points do not matter: paths to points in general
    position miss them.
 
@@ -125,9 +125,10 @@ static int sample_nearest(const lrcsi_division *d, const lrcsi_cell *cell,
         if (other == best || range[1] < best_z) {
             continue;
         }
-        int order = covers_sample(sample, other) && changes < MAX_CHANGES
-                        ? lrcsi_cells_facet_order(d->view, best, other)
-                        : 0;
+        int order =
+            covers_sample(sample, other) && changes < MAX_CHANGES
+                ? lrcsi_cells_facet_order(d->view, d->facet[best].facet, d->facet[other].facet)
+                : 0;
         if (order == 0) {
             return LRCSI_SAMPLE_UNSURE;
         }
@@ -162,12 +163,11 @@ void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2])
 void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
 {
-    const uint32_t facet_count = d->view->prepared->scene->facet_count;
     sample->outcome = LRCSI_SAMPLE_UNSURE;
     for (int t = 0; t < LRCSI_SAMPLES && sample->outcome == LRCSI_SAMPLE_UNSURE; t++) {
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
-        lrcsi_cells_sample_clear(sample, facet_count);
+        lrcsi_cells_sample_clear(sample, d->record_room);
         if (sample->border_distance > 4 * (cell->widest_strip + d->facet_err + s->tolerance)) {
             sample->outcome = sample_nearest(d, cell, s, sample);
         }
@@ -185,7 +185,7 @@ static int mark_adjoining(const lrcsi_division *d, const lrcsi_cell *cell,
     int has_edge = 0;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
-        if (lrcsi_cells_segment_marked(&d->view->prepared->topology, e, &surface->foreground)) {
+        if (lrcsi_division_segment_marked(d, e, &surface->foreground)) {
             has_edge |= e->contact == 0;
             adjoining->entry[e->owner[0]] = adjoining->number;
             if (e->owner[1] != LRCS_NONE) {
@@ -230,8 +230,8 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     const lrcsi_division *d = &b->division;
     uint32_t count = 1;
     int covers = 1;
-    lrcsi_marks_clear(&surface->foreground, d->view->prepared->scene->facet_count);
-    lrcsi_marks_clear(&surface->adjoining, d->view->prepared->scene->facet_count);
+    lrcsi_marks_clear(&surface->foreground, d->record_room);
+    lrcsi_marks_clear(&surface->adjoining, d->record_room);
     const uint32_t number = surface->foreground.number;
     uint32_t *const mark = surface->foreground.entry;
     surface->nearest = 1;
@@ -241,8 +241,8 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     for (uint32_t i = 0; i < count; i++) {
         uint32_t facet = surface->facet[i];
         const lrcsi_cells_facet *f = &d->facet[facet];
-        covers &= (b->kind[facet] & LRCSI_FACET_UNKNOWN_CONTACT) == 0 &&
-                  (facet == sample->nearest || !may_cover_sample(sample, facet));
+        covers &=
+            !f->unknown_contact && (facet == sample->nearest || !may_cover_sample(sample, facet));
         for (int k = 0; k < 3; k++) {
             lrcsi_cell_border side;
             uint32_t next = f->neighbour[k];
@@ -285,8 +285,7 @@ int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
         const lrcsi_cells_facet *f = &d->facet[index];
         double range[2];
         lrcsi_cells_facet_z(f, sample->at, s->tolerance, range);
-        int covers = covers_sample(sample, index) && range[0] > best_z &&
-                     (b->kind[index] & LRCSI_FACET_UNKNOWN_CONTACT) == 0;
+        int covers = covers_sample(sample, index) && range[0] > best_z && !f->unknown_contact;
         for (int k = 0; k < 3 && covers; k++) {
             double distance[2];
             lrcsi_line_range(&cell->shape, f->side[k], distance);
@@ -319,7 +318,7 @@ static int segment_is_unlisted(const lrcsi_division *d, const lrcsi_marks *liste
         return !lrcsi_marked(listed, e->owner[0]) || e->owner[1] == LRCS_NONE ||
                !lrcsi_marked(listed, e->owner[1]);
     }
-    return !lrcsi_cells_segment_marked(&d->view->prepared->topology, e, listed);
+    return !lrcsi_division_segment_marked(d, e, listed);
 }
 
 /* Is a facet in the list, and does no contact in the cell join it with the surface? */
@@ -421,7 +420,7 @@ void lrcsi_cells_cull(lrcsi_blocks *b, lrcsi_cell *cell, const lrcsi_clip_sides 
               behind_at_sample(d, s, sample, surface, f)) ||
              d->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&d->facet[f], s, 1) < low)) {
             sample->listed.entry[f] = 0;
-            b->finding[f] |= LRCSI_FINDING_HIDDEN;
+            b->record_finding[f] |= LRCSI_FINDING_HIDDEN;
             d->area[f].uncertainty += d->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }

@@ -197,7 +197,7 @@ static void charge_cut(lrcsi_division *d, uint32_t index, double low, double hig
     double beyond = STRIP_OVERHANG * strip->width + far;
     double along[2];
     double wide = lrcsi_min(high + far, strip->width) - lrcsi_max(low - far, -strip->width);
-    if (!e->contact && (e->owner[0] == f->number || e->owner[1] == f->number)) {
+    if (!e->contact && (e->owner[0] == f->owner || e->owner[1] == f->owner)) {
         wide = lrcsi_min(wide, strip->width);
     }
     corners_along(f, e->line, e->end[0], along);

@@ -20,11 +20,22 @@ lrcsi_cells_segment *lrcsi_division_edge(lrcsi_division *d, uint32_t edge)
     lrcsi_cells_segment *e = lrcsi_division_segment(d);
     if (e) {
         const lrcsi_edge_facets on = lrcsi_edge_facets_of(d->view, edge, LRCS_NONE);
-        e->owner[0] = on.facet[0];
-        e->owner[1] = on.facet[1];
+        e->owner[0] = lrcsi_division_owner(d, on.facet[0]);
+        e->owner[1] = lrcsi_division_owner(d, on.facet[1]);
         e->edge = on.count > 2 ? edge : LRCS_NONE;
     }
     return e;
+}
+
+int lrcsi_division_edge_marked(const lrcsi_division *d, uint32_t edge, const lrcsi_marks *marks)
+{
+    const lrcsi_topology *topology = &d->view->prepared->topology;
+    const lrcsi_edge_use *use = topology->use + topology->edge[edge].first_use;
+    int marked = 0;
+    for (uint32_t i = 0; i < topology->edge[edge].uses && !marked; i++) {
+        marked = lrcsi_marked(marks, lrcsi_division_owner(d, use[i].facet));
+    }
+    return marked;
 }
 
 void lrcsi_division_start(lrcsi_division *d, lrcsi_cell *cell)

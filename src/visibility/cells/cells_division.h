@@ -53,17 +53,20 @@ typedef struct lrcsi_division {
     const lrcsi_view *view;
     lrcsi_meter *meter; /* limit on steps; NULL: none */
 
-    /* Facets and segments: */
-    lrcsi_cells_facet *facet; /* those that cells list by their numbers */
+    /* Records of facets and segments, which cells list by their numbers: */
+    lrcsi_cells_facet *facet;
+    uint32_t *record;     /* facet of the scene: the number of its record, by which segments name
+                             it; 0: it has none. NULL: segments name facets by their numbers */
+    uint32_t record_room; /* numbers of records, with 0 */
     lrcsi_cells_segment *segment;
     uint32_t segment_count, segment_room;
     double extent;    /* the largest coordinate */
     double facet_err; /* the largest position error of a facet */
 
-    /* Areas, which all divisions of a view add up: */
-    const unsigned char *wanted; /* facet: 1 if its area is wanted */
-    lrcsi_cell_area *area;       /* facet */
-    double negligible; /* an undecided area that is charged without computing it more closely */
+    /* Areas: */
+    unsigned char *wanted; /* record: 1 if its area is wanted */
+    lrcsi_cell_area *area; /* record */
+    double negligible;     /* an undecided area that is charged without computing it more closely */
 
     /* The cells that wait, and the room for their lists: */
     lrcsi_cell *stack;
@@ -83,6 +86,25 @@ static inline double lrcsi_division_tolerance(const lrcsi_division *d, const lrc
    there is no room. */
 lrcsi_cells_segment *lrcsi_division_segment(lrcsi_division *d);
 lrcsi_cells_segment *lrcsi_division_edge(lrcsi_division *d, uint32_t edge);
+
+/* The number by which segments name a facet of the scene, or LRCS_NONE. */
+static inline uint32_t lrcsi_division_owner(const lrcsi_division *d, uint32_t facet)
+{
+    return d->record && facet != LRCS_NONE ? d->record[facet] : facet;
+}
+
+/* Is any of the facets of an edge of the scene marked, by the numbers of owners? */
+int lrcsi_division_edge_marked(const lrcsi_division *d, uint32_t edge, const lrcsi_marks *marks);
+
+/* Is any facet of a segment, an edge or a contact, marked? */
+static inline int lrcsi_division_segment_marked(const lrcsi_division *d,
+                                                const lrcsi_cells_segment *e,
+                                                const lrcsi_marks *marks)
+{
+    return lrcsi_marked(marks, e->owner[0]) ||
+           (e->owner[1] != LRCS_NONE && lrcsi_marked(marks, e->owner[1])) ||
+           (e->edge != LRCS_NONE && lrcsi_division_edge_marked(d, e->edge, marks));
+}
 
 /* Makes a cell that lists all segments the only one that waits. */
 void lrcsi_division_start(lrcsi_division *d, lrcsi_cell *cell);

@@ -180,7 +180,8 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     const lrcsi_cells_point *p[3];
     double z[3];
-    f->number = facet;
+    f->facet = facet;
+    f->unknown_contact = 0;
     f->err = f->z_err = f->line_err = 0;
     for (int k = 0; k < 3; k++) {
         p[k] = lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3]);
@@ -278,11 +279,11 @@ uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k)
                : LRCS_NONE;
 }
 
-uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *kind, uint32_t facet,
-                               int k)
+uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *coplanar,
+                               uint32_t facet, int k)
 {
     uint32_t other = lrcsi_cells_neighbour(view, facet, k);
-    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_FACET_COPLANAR) == 0 &&
+    return other != LRCS_NONE && !coplanar[facet] && !coplanar[other] &&
                    !lrcsi_intersection_along(&view->prepared->intersections, facet, k)
                ? other
                : LRCS_NONE;

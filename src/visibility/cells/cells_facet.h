@@ -10,14 +10,7 @@
 #include "visibility/base/clip.h"
 #include "visibility/index/marks.h"
 
-/* What is known of a facet in all cells, bits. */
-enum {
-    LRCSI_FACET_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
-    LRCSI_FACET_UNKNOWN_CONTACT = 2, /* one of its contacts could not be computed */
-    LRCSI_FACET_NEIGHBOURS_FOUND = 4
-};
-
-/* A facet that can hide others (lrcsi_view_casts), in view coordinates. */
+/* The record of a facet that can hide others (lrcsi_view_casts), in view coordinates. */
 typedef struct lrcsi_cells_facet {
     double x[3], y[3];      /* corners, counter-clockwise */
     double side[3][3];      /* distance from the line of side k: a x + b y + c, positive inside */
@@ -29,9 +22,12 @@ typedef struct lrcsi_cells_facet {
     double err;             /* error of its vertices, and of their distances from a line */
     double line_err;        /* error of its sides within the block, in addition to 16 u b */
     double z_err;           /* error of z of its vertices */
-    uint32_t neighbour[3];  /* the facet that continues it across each side, or LRCS_NONE */
-    uint32_t number;        /* in the scene */
+    uint32_t neighbour[3];  /* the record of the facet that continues it across each side; 0: that
+                               facet is not in the block; LRCS_NONE: there is none */
+    uint32_t facet;         /* its number in the scene */
+    uint32_t owner;         /* the number by which segments name it */
     int sliver;             /* its sides are those of a band that contains it */
+    int unknown_contact;    /* one of its contacts could not be computed */
 } lrcsi_cells_facet;
 
 /* An event edge or a contact. */
@@ -42,20 +38,11 @@ typedef struct lrcsi_cells_segment {
     double err;        /* error of its ends, and of their distances from a line */
     double line_err;   /* error of its line within the block, in addition to 16 u b */
     double z_err;      /* error of z of its ends */
-    uint32_t owner[2]; /* facets whose edge or contact it is; the second may be LRCS_NONE */
+    uint32_t owner[2]; /* facets whose edge or contact it is (lrcsi_division_owner); the second
+                          may be LRCS_NONE */
     uint32_t edge;     /* if it is an edge of more than two facets; else LRCS_NONE */
     int contact;       /* the lrcsi_contact_kind of a contact; 0: an edge */
 } lrcsi_cells_segment;
-
-/* Is any facet of an edge, or of a contact, marked? */
-static inline int lrcsi_cells_segment_marked(const lrcsi_topology *topology,
-                                             const lrcsi_cells_segment *e, const lrcsi_marks *marks)
-{
-    return lrcsi_marked(marks, e->owner[0]) ||
-           (e->owner[1] != LRCS_NONE && lrcsi_marked(marks, e->owner[1])) ||
-           (e->edge != LRCS_NONE &&
-            lrcsi_topology_edge_has(topology, e->edge, marks->entry, marks->number));
-}
 
 /* A vertex: in the view, and relative to the middle of a block. */
 typedef struct lrcsi_cells_point {
@@ -85,7 +72,8 @@ const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t verte
 /* The line through two vertices. Returns their distance, with a relative error of 4 u. */
 double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3]);
 
-/* Makes the record of a facet for the current block; its neighbours are not set. */
+/* Makes the record of a facet for the current block. Not set: its neighbours, its number as an
+   owner. */
 void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_facet *f);
 
 /* Bounds of a facet's z at a point that it may cover. */
@@ -106,11 +94,11 @@ int lrcsi_cells_has_coplanar(const lrcsi_view *view, uint32_t facet);
    edge is an event of the view (visibility/index/event.h). */
 uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k);
 
-/* The same for cells: all edges of facets that overlap others in their plane, and edges along which
+/* The same for cells; coplanar: lrcsi_cells_has_coplanar of each facet. All edges of facets that overlap others in their plane, and edges along which
    others meet one of the two facets, count as events too, so that no component continues across
    them. */
-uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *kind, uint32_t facet,
-                               int k);
+uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *coplanar,
+                               uint32_t facet, int k);
 
 /* The number in the scene of the side that runs from corner k of a facet's record. */
 int lrcsi_cells_side_number(const lrcsi_view *view, uint32_t facet, int k);

@@ -82,7 +82,7 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
     lrcsi_target_refine(&cells->target, &cells->needle, &cells->frame);
 
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = facet};
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .facet = facet, .owner = facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell.shape);
     lrcsi_clip_box(&cell.shape, f->low, f->high);
     for (int k = 0; k < 3; k++) {

@@ -24,7 +24,6 @@ uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_ce
                                   const double at[2], uint32_t component,
                                   const lrcsi_cells_segment **best)
 {
-    const lrcsi_topology *topology = &cells->division.view->prepared->topology;
     const lrcsi_marks of_component = {cells->classification->component, component};
     uint32_t count = 0;
     double nearest = HUGE_VAL;
@@ -33,8 +32,9 @@ uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_ce
         const lrcsi_cells_segment *e = &cells->division.segment[cell->segment[i]];
         int matters = component == LRCS_NONE;
         if (!matters) {
-            matters = e->contact ? lrcsi_marked(&of_component, e->owner[1])
-                                 : lrcsi_cells_segment_marked(topology, e, &of_component);
+            matters = e->contact
+                          ? lrcsi_marked(&of_component, e->owner[1])
+                          : lrcsi_division_segment_marked(&cells->division, e, &of_component);
         }
         if (matters) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
