@@ -136,7 +136,9 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         b->first[scene->facet_material[f] + 2] += !p->skip[f];
         b->count += !p->skip[f];
-        b->redundant |= !p->skip[f] && p->redundant[f] != LRCSI_NOT_REDUNDANT;
+        if (!p->skip[f] && p->redundant[f] > b->redundant) {
+            b->redundant = p->redundant[f];
+        }
     }
     for (uint32_t i = 1; i < scene->material_count; i++) {
         b->first[i + 1] += b->first[i];

@@ -169,10 +169,10 @@ static int contacts_of_convex_solid(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Finds the shells, then the contacts (it matters whether two facets in contact belong
-   to the same shell), then proves that the scene is solid, if it is. Redundant facets are not
-   searched, nor is the second facet of an opposite pair, which gets a copy of the list of the
-   first. This stage comes before the normals, which reuse the memory of its scratch. */
+/* Finds the closed shells, then the contacts (it matters whether two facets in contact belong to
+   the same shell), then which shells are solid. Redundant facets are not searched, nor is the second
+   facet of an opposite pair, which gets a copy of the list of the first. This stage comes before the
+   normals, which reuse the memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -181,28 +181,22 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
         return contacts_of_convex_solid(p, work);
     }
     unsigned char *excluded = lrcsi_work_take(work, facets, sizeof *excluded);
-    size_t mark = work->used;
-    uint32_t *shell = lrcsi_work_take(work, facets, sizeof *shell);
-    if (!excluded || !shell) {
+    lrcsi_shells shells = {.of = lrcsi_work_take(work, facets, sizeof *shells.of),
+                           .self = lrcsi_work_take(work, facets, sizeof *shells.self)};
+    if (!excluded || !shells.of || !shells.self) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
         excluded[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
-    if (lrcsi_solid_shells(p, shell)) {
-        p->shell = shell;
-    } else {
-        work->used = mark;
-    }
+    lrcsi_solid_shells(p, shells.of, shells.self);
+    memset(shells.self, 0, facets);
     int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
-                                         &p->topology, excluded, p->shell, work, &p->intersections);
+                                         &p->topology, excluded, &shells, work, &p->intersections);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_contacts(p, work);
     }
-    if (status == LRCS_OK && p->shell && !p->intersections.self) {
-        status = lrcsi_solid_outward(p, p->shell, work, &p->solid);
-    }
-    return status;
+    return status == LRCS_OK ? lrcsi_solid_find(p, &shells, work) : status;
 }
 
 static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
@@ -222,14 +216,8 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (p->convex) {
         p->grazing_cos = lrcsi_convex_grazing(p);
     }
-    if (p->shell && p->solid) {
-        uint32_t shells = 0;
-        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            shells += !p->skip[f] && p->shell[f] == f;
-        }
-        if (shells == 1) {
-            status = lrcsi_convex_exact(p, work, &p->convex);
-        }
+    if (p->solid && p->solid_shells == 1) {
+        status = lrcsi_convex_exact(p, work, &p->convex);
     }
     p->convex |= p->live == 0;
     if (status == LRCS_OK && p->has_curved_shapes && !p->convex) {
@@ -266,7 +254,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
     need = lrcsi_work_add(need, lrcsi_neighbours_need(scene->facet_count));
     /* 2. Contacts: excluded facets, shells, and the search with its result. */
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
     /* 3. The result of the search; normals. The volumes of shells, released before, need less than

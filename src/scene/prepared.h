@@ -28,12 +28,13 @@ typedef struct lrcsi_normal {
     double error;  /* at most 2^-90 of the length */
 } lrcsi_normal;
 
-/* When a facet is redundant: a coincident facet is seen instead of it, and it hides nothing that
-   the other does not hide (scene/coincident.h). */
+/* When a facet is redundant: others are seen instead of it, and it hides nothing that they do not
+   hide (scene/coincident.h, scene/solid.h). In this order each includes those before it. */
 enum lrcsi_redundant {
     LRCSI_NOT_REDUNDANT = 0,
-    LRCSI_REDUNDANT_FROM_BEHIND = 1, /* if it faces away: its opposite then faces the laser */
-    LRCSI_REDUNDANT = 2              /* always; also facets that are skipped */
+    LRCSI_REDUNDANT_IN_SOLID = 1,    /* if it faces away: fronts of its solid shell hide it */
+    LRCSI_REDUNDANT_FROM_BEHIND = 2, /* if it faces away: its opposite then faces the laser */
+    LRCSI_REDUNDANT = 3              /* always; also facets that are skipped */
 };
 
 /* The neighbours of facets (scene/neighbours.h). */
@@ -62,7 +63,7 @@ typedef struct lrcsi_batches {
     double *normal[3];       /* unit; relative error of each component at most 1.01 u */
     double *area;            /* S, scaled; relative error at most 3 u */
     lrcsi_normal_ball *ball; /* of elements LRCSI_LANES k .. LRCSI_LANES (k + 1) - 1 */
-    int redundant;           /* 1 if some are redundant, at least from behind */
+    int redundant;           /* the largest lrcsi_redundant of any of them */
 } lrcsi_batches;
 
 /* How many elements of the batches from `start` to `end` lie in the same ball. */
@@ -166,8 +167,6 @@ struct lrcs_prepared {
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
     lrcsi_meshlets meshlets;           /* facets that follow one another */
-    uint32_t *shell;                   /* facet: its shell (scene/solid.h) if all are closed; else
-                                          NULL */
     double centre[3];                  /* of the box around the live facets */
     double radius;                     /* half its longest side: no live vertex is farther from the
                                           centre in any coordinate */
@@ -177,10 +176,11 @@ struct lrcs_prepared {
     int convex;         /* live facets lie on one convex surface, outward and one-sided, exactly or
                            by construction; then only facets at grazing incidence can be hidden */
     double grazing_cos; /* if convex: a facet with cos(theta) above this is entirely visible */
-    int solid;          /* it is proved that the winding number is nowhere negative, so that back
-                           sides are never seen */
-    int two_sided;      /* some live facet is two-sided */
-    int glint, diffuse; /* some live facet has A > 0; B > 0 */
+    int solid;          /* all live facets are in solid shells (scene/solid.h): back sides are
+                           never seen */
+    uint32_t solid_shells;      /* how many there are; 0 if the scene is convex by construction */
+    int two_sided;              /* some live facet is two-sided */
+    int glint, diffuse;         /* some live facet has A > 0; B > 0 */
     int has_curved_shapes;      /* some live part was tessellated from a curved shape */
     lrcsi_proximity proximity;  /* if there are curved shapes among other parts; else
                                    proximity.reach is NULL */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Proofs about a scene's surface: closed and outward (back sides are never seen), convex (front
-   sides are never hidden). What cannot be proved counts as false. Nothing depends on direction. */
+/* Proofs about a scene's surface: solid shells (back sides are never seen), convex (front sides are
+   never hidden). What cannot be proved counts as false. Nothing depends on direction. */
 #include "scene/solid.h"
 
 #include <math.h>
@@ -14,24 +14,33 @@
 
 /* --- shells ----------------------------------------------------------------------------------- */
 
-/* A live facet has a neighbour across each side unless the edge is irregular or a boundary edge. */
-int lrcsi_solid_shells(const lrcs_prepared *p, uint32_t *shell)
+/* A live facet has a neighbour across each side unless the edge is irregular or a boundary edge, or
+   the facet is always redundant. */
+void lrcsi_solid_shells(const lrcs_prepared *p, uint32_t *shell, unsigned char *closed)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         shell[f] = f;
+        closed[f] = 1;
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
             uint32_t other = p->neighbours.facet[f].corner[k];
-            if (p->opposite || other == f || other == count) {
-                return 0;
-            }
             if (other < f) {
                 lrcsi_disjoint_union(shell, other, f);
             }
         }
     }
     lrcsi_disjoint_flatten(shell, count);
-    return 1;
+    for (uint32_t f = 0; f < count; f++) {
+        int regular = !p->skip[f] && !(p->opposite && p->opposite[f] != LRCS_NONE);
+        for (int k = 0; k < 3 && regular; k++) {
+            uint32_t other = p->neighbours.facet[f].corner[k];
+            regular = other != f && other != count;
+        }
+        closed[shell[f]] &= regular != 0;
+    }
+    for (uint32_t f = 0; f < count; f++) {
+        shell[f] = closed[shell[f]] ? shell[f] : LRCS_NONE;
+    }
 }
 
 /* Six times the signed volume of the tetrahedron of a facet and the point o, and a bound on its
@@ -56,29 +65,39 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
     return det;
 }
 
-/* Sums the volumes of shells, with bounds on their rounding errors. */
-int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *shell, lrcs_work *work, int *proved)
+/* What is known of a shell. */
+typedef struct shell_proof {
+    double volume, error; /* times 6 */
+    int curved;           /* it has facets of a curved surface */
+} shell_proof;
+
+int lrcsi_solid_find(lrcs_prepared *p, const lrcsi_shells *shells, lrcs_work *work)
 {
     size_t mark = work->used;
     uint32_t count = p->scene->facet_count;
-    double *volume = lrcsi_work_take_zero(work, count, sizeof *volume); /* times 6 */
-    double *error = lrcsi_work_take_zero(work, count, sizeof *error);
-    if (!volume || !error) {
-        work->used = mark;
+    shell_proof *proof = lrcsi_work_take_zero(work, count, sizeof *proof);
+    if (!proof) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < count; f++) {
-        if (!p->skip[f]) {
+        uint32_t shell = shells->of[f];
+        if (shell != LRCS_NONE && !shells->self[shell]) {
             double six_err = 0;
-            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, shell[f], 0), &six_err);
-            volume[shell[f]] += six;
-            error[shell[f]] += six_err + 2 * LRCSI_U * fabs(volume[shell[f]]);
+            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, shell, 0), &six_err);
+            proof[shell].volume += six;
+            proof[shell].error += six_err + 2 * LRCSI_U * fabs(proof[shell].volume);
+            proof[shell].curved |= p->scene->part[p->scene->facet_part[f]].bounds.reach > 0;
         }
     }
-    *proved = 1;
+    p->solid = 1;
     for (uint32_t f = 0; f < count; f++) {
-        if (!p->skip[f] && shell[f] == f && !(volume[f] > 2 * error[f])) {
-            *proved = 0;
+        uint32_t shell = shells->of[f];
+        int solid = shell != LRCS_NONE && !shells->self[shell] &&
+                    proof[shell].volume > 2 * proof[shell].error;
+        p->solid &= solid || p->skip[f];
+        p->solid_shells += solid && shell == f;
+        if (solid && !proof[shell].curved) {
+            p->redundant[f] = LRCSI_REDUNDANT_IN_SOLID;
         }
     }
     work->used = mark;

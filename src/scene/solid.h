@@ -1,30 +1,34 @@
 /* SPDX-License-Identifier: MIT */
-/* What can be proved about a scene's surface for all directions: closed and outward, convex. */
+/* What can be proved about a scene's surface for all directions: which shells of it are solid, and
+   whether it is convex. */
 #ifndef LRCSI_SOLID_H
 #define LRCSI_SOLID_H
 
 #include "scene/prepared.h"
 
-/* Divides the surface into shells: facets are in the same one if they are connected across edges.
-   shell[facet] is the first facet of its shell. Returned: 1 if every edge of a live facet has
-   exactly two live facets, which traverse it in opposite senses, and no facet has an opposite (two
-   opposite facets enclose no volume, so no such scene is solid); else 0, and shell is undefined. */
-int lrcsi_solid_shells(const lrcs_prepared *prepared, uint32_t *shell);
+/* Divides the surface into shells: facets are in the same one if they are connected across edges. A
+   shell is closed if every edge of its facets has exactly two live facets, which traverse it in
+   opposite senses, and none of its facets coincides with another one. Returned: of each facet the
+   first facet of its shell, or LRCS_NONE if that is not closed. closed: scratch, for each facet. */
+void lrcsi_solid_shells(const lrcs_prepared *prepared, uint32_t *shell, unsigned char *closed);
 
-/* The last step of a proof that the winding number of the live facets is nowhere negative. The
-   proof requires that all shells are closed (lrcsi_solid_shells), that no facet meets the inside
-   or a side of another facet of its shell (lrcsi_intersections.self), and that each shell
-   encloses a positive volume, which this function checks. By the second condition a shell meets
-   itself at most in isolated points (coinciding corners, sides that cross): if two parts of the
-   surface met along a line, they would do so inside a facet or along overlapping sides, of which
-   one ends inside the other. Near an isolated point each of the two parts stays on one side of the
-   other, because it is still connected when the point is removed; so it can be moved away from it.
-   The result is an embedded surface: its winding number is 0 outside and 1 inside (Jordan-Brouwer),
-   and winding numbers of shells add up. *proved: 1, or 0 if the volume of some shell is not
-   provably positive. Given: the conditions above except the volume. Scratch is taken from work.
-   Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *shell, lrcs_work *work,
-                        int *proved);
+/* Finds the solid shells. A shell is solid if it is closed, no facet of it meets the inside or a
+   side of another one of it (shells->self), and it encloses a positive volume. By the second
+   condition it meets itself at most in isolated points (coinciding corners, sides that cross): if
+   two parts of the surface met along a line, they would do so inside a facet or along overlapping
+   sides, of which one ends inside the other. Near an isolated point each of the two parts stays on
+   one side of the other, because it is still connected when the point is removed; so it can be
+   moved away from it. The result is an embedded surface: its winding number is 0 outside and 1
+   inside (Jordan-Brouwer).
+
+   On a line to the laser the winding number becomes larger by 1 where the line meets a back of the
+   shell, smaller by 1 where it meets a front, and 0 in the end. It is never negative, so after every
+   back comes a front: the backs of a solid shell are never seen, and hide nothing that its fronts do
+   not hide. Its facets get LRCSI_REDUNDANT_IN_SOLID, unless the shell represents a curved surface,
+   whose visibility may differ from that of its facets. Sets prepared->solid and solid_shells.
+   Given: shells (lrcsi_solid_shells, lrcsi_intersection_make). Scratch is taken from work. Status:
+   LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_solid_find(lrcs_prepared *prepared, const lrcsi_shells *shells, lrcs_work *work);
 
 /* 1 if the scene is convex by construction: all live facets belong to one part that the library
    tessellated, which lies on a convex surface, outward, and is one-sided or closed (*solid is set

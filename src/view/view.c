@@ -289,11 +289,11 @@ static void view_facings(lrcsi_view *view)
 }
 
 /* The facing of a facet that casts, else 0: a front casts unless it is always redundant, a back
-   only if backs cast and it is not redundant at all. */
+   only if backs like it do (lrcsi_backs_cast). */
 static inline signed char cast_of(signed char facing, unsigned char redundant, int backs)
 {
     return (signed char)((facing > 0 && redundant != LRCSI_REDUNDANT) -
-                         (facing < 0 && redundant == LRCSI_NOT_REDUNDANT && backs));
+                         (facing < 0 && redundant < backs));
 }
 
 /* The same of a whole meshlet: the trip count is constant, so that compilers vectorize the loop. */
@@ -398,7 +398,8 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 {
     lrcsi_view v;
     size_t mark = work->used;
-    const lrcsi_view_backs backs = {!prepared->solid, !prepared->solid};
+    const lrcsi_view_backs backs = {prepared->solid ? LRCSI_BACKS_NONE : LRCSI_BACKS_OPEN,
+                                    !prepared->solid};
     int status = lrcsi_view_face(prepared, pose, backs, work, &v);
     if (status == LRCS_OK) {
         status = lrcsi_view_project(work, &v);

@@ -25,10 +25,18 @@ typedef struct lrcsi_incidence {
     double error;     /* relative error of projected and of the area */
 } lrcsi_incidence;
 
+/* Which facets that face away from the laser hide others and can be visible: those whose
+   lrcsi_redundant is less. */
+enum lrcsi_backs_cast {
+    LRCSI_BACKS_NONE = LRCSI_NOT_REDUNDANT,
+    LRCSI_BACKS_OPEN = LRCSI_REDUNDANT_IN_SOLID,  /* those that are not in solid shells */
+    LRCSI_BACKS_ALL = LRCSI_REDUNDANT_FROM_BEHIND /* also those: a search whose result is known */
+};
+
 /* What back sides do in a view. */
 typedef struct lrcsi_view_backs {
-    int cast;    /* 1: facets that face away from the laser hide others and can be visible */
-    int reflect; /* 1: they reflect if their material is two-sided */
+    int cast;    /* a lrcsi_backs_cast */
+    int reflect; /* 1: those that cast reflect if their material is two-sided */
 } lrcsi_view_backs;
 
 /* A vertex in the view. */

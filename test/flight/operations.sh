@@ -8,7 +8,7 @@ mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
 questions='lrcsi_view_box_beside lrcsi_view_box_behind edge_crosses intersection_divides
 lrcsi_sample_covers_towards line_nearer lrcsi_intersection_find facet_apart lrcsi_facet_cells_order sides_cover candidate_in_front
-lrcsi_cells_segment_marked lrcsi_clip_locate lrcsi_cells_facet_order event_slack grid_put'
+lrcsi_division_segment_marked lrcsi_clip_locate lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_surface_make lrcsi_cubature_add cell_step'
 flags='-std=c11 -ffp-contract=off -O0'

@@ -94,6 +94,18 @@ static void piece_that_passes_through_itself_is_not_proved_solid(void **state)
     assert_true(is_solid());
 }
 
+/* Draws the backs of solid shells too. */
+static void draw_all_backs(lrcs_prepared *prepared)
+{
+    prepared->solid = 0;
+    prepared->convex = 0;
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        if (prepared->redundant[f] == LRCSI_REDUNDANT_IN_SOLID) {
+            prepared->redundant[f] = LRCSI_NOT_REDUNDANT;
+        }
+    }
+}
+
 /* Where winding is negative, a back side is seen: what the proof must never allow. */
 static void facets_seen_from_behind_are_never_in_a_solid(void **state)
 {
@@ -117,8 +129,7 @@ static void facets_seen_from_behind_are_never_in_a_solid(void **state)
         lrcs_prepared prepared = *scene_prepare(&scene, &work);
         solid += prepared.solid;
         if (prepared.solid) {
-            prepared.solid = 0; /* draw back sides, too: none may show */
-            prepared.convex = 0;
+            draw_all_backs(&prepared); /* none may show */
             const double d[3] = {1 + random_below(&seed, 3), random_below(&seed, 4),
                                  random_below(&seed, 5)};
             lrcs_result r = scene_pose(&scene, &prepared, &work, d, LRCS_METHOD_EXACT, 0);
@@ -126,6 +137,118 @@ static void facets_seen_from_behind_are_never_in_a_solid(void **state)
         }
     }
     assert_true(solid > 20 && solid < 280);
+}
+
+/* Which boxes of a scene are marked as solid, a bit each; all facets of a box, or none. */
+static unsigned solid_boxes(uint32_t boxes)
+{
+    const lrcs_prepared *p = scene_prepare(&scene, &work);
+    unsigned solid = 0;
+    for (uint32_t f = 0; f < 12 * boxes; f++) {
+        int marked = p->redundant[f] == LRCSI_REDUNDANT_IN_SOLID;
+        assert_true(f % 12 == 0 || marked == (int)(solid >> f / 12 & 1));
+        solid |= (unsigned)marked << f / 12;
+    }
+    return solid;
+}
+
+static void solid_shells_are_found_among_others(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(0.5, 0.5, 0.5, 1); /* through the first */
+    scene_plate(&scene, (const double[3]){-1, 0.25, 0.25}, (const double[3]){1, 0, 0},
+                (const double[3]){0, 1, 0}); /* open */
+    assert_false(is_solid());
+    assert_int_equal(solid_boxes(2), 3);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(3, 0, 0, 1);
+    scene_invert(&scene, 12); /* inward */
+    assert_int_equal(solid_boxes(2), 1);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(3, 0, 0, 1);
+    box(4, 1, 0, 1); /* four facets on one edge */
+    assert_int_equal(solid_boxes(3), 1);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(0, 0, 0, 1); /* the same: the second is redundant, and so is the first in no view */
+    box(3, 0, 0, 1);
+    scene_invert(&scene, 24);
+    assert_int_equal(solid_boxes(1), 1);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(1, 0, 0, 1); /* a common face, which both have, in opposite senses */
+    box(3, 0, 0, 1);
+    assert_int_equal(solid_boxes(3), 4);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(3, 0, 0, 1);
+    scene.vertex[15].x[2] -= 2; /* a corner of the second drawn down through its bottom */
+    assert_int_equal(solid_boxes(2), 1);
+    scene_start(&scene);
+    box(0, 0, 0, 1);
+    box(3, 0, 0, 1);
+    lrcs_part part[2] = {scene.part, scene.part};
+    part[0].facet_count = part[1].facet_count = part[1].first_facet = 12;
+    part[1].bounds.patch = (lrcs_patch_bounds){0.1, 0.01, 0.01, 0.1};
+    part[1].bounds.reach = 0.01; /* it passes for curved */
+    for (int f = 12; f < 24; f++) {
+        scene.part_of[f] = 1;
+    }
+    scene.scene.part = part;
+    scene.scene.part_count = 2;
+    assert_int_equal(solid_boxes(2), 1);
+    assert_true(is_solid());
+}
+
+/* In scenes of which a part is solid, all that is visible is the same as if the backs of solid
+   shells were drawn too, and these are not visible. */
+static void backs_of_solid_shells_make_no_difference(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    int mixed = 0;
+    for (int n = 0; n < 300; n++) {
+        scene_start(&scene);
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t first = scene.scene.facet_count;
+            box(random_below(&seed, 5), random_below(&seed, 5), random_below(&seed, 5),
+                1 + random_below(&seed, 3));
+            uint32_t what = (uint32_t)random_below(&seed, 8);
+            if (what < 2) { /* two facets of it or all face the other way */
+                scene_invert(&scene, what == 0 ? first : first + 10);
+            } else if (what == 2) {
+                scene.vertex[8 * i].x[2] += random_below(&seed, 9);
+            } else if (what == 3) { /* open */
+                scene.scene.facet_count = first + 10;
+                scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 5, 2},
+                               (const double[3]){5, random_below(&seed, 5), 1});
+                scene_triangle(&scene, (const double[3]){0, 5, 0}, (const double[3]){1, 0, 5},
+                               (const double[3]){5, random_below(&seed, 5), 5});
+            }
+        }
+        lrcs_prepared prepared = *scene_prepare(&scene, &work);
+        int solid = 0;
+        for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+            solid |= prepared.redundant[f] == LRCSI_REDUNDANT_IN_SOLID;
+        }
+        if (!solid || prepared.solid) {
+            continue;
+        }
+        const double d[3] = {1 + random_below(&seed, 3), random_below(&seed, 4),
+                             random_below(&seed, 5)};
+        lrcs_result without = scene_pose(&scene, &prepared, &work, d, LRCS_METHOD_EXACT, 0);
+        draw_all_backs(&prepared);
+        lrcs_result with = scene_pose(&scene, &prepared, &work, d, LRCS_METHOD_EXACT, 0);
+        check_most(fabs(with.sigma_m2 - without.sigma_m2), with.bound_m2 + without.bound_m2);
+        check_most(fabs(with.back_side_area_m2 - without.back_side_area_m2), 1e-12);
+        check_most(fabs(with.projected_area_m2 - without.projected_area_m2), 1e-12);
+        mixed++;
+    }
+    assert_true(mixed > 50);
 }
 
 static void convex_meshes_are_proved_convex(void **state)
@@ -200,6 +323,8 @@ int main(void)
         cmocka_unit_test(open_inverted_and_odd_shapes_are_not_proved_solid),
         cmocka_unit_test(piece_that_passes_through_itself_is_not_proved_solid),
         cmocka_unit_test(facets_seen_from_behind_are_never_in_a_solid),
+        cmocka_unit_test(solid_shells_are_found_among_others),
+        cmocka_unit_test(backs_of_solid_shells_make_no_difference),
         cmocka_unit_test(convex_meshes_are_proved_convex),
         cmocka_unit_test(shapes_with_a_hollow_are_not_proved_convex),
     };

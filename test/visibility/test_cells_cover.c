@@ -7,6 +7,7 @@
 #include "visibility/cells/cells_cut.h"
 
 #define FACETS   1024u
+#define RECORDS  (FACETS + 1)
 #define SEGMENTS 8192u
 #define LISTS    (1u << 18)
 /* Points nearer to the border of a facet than this are not compared. */
@@ -15,20 +16,27 @@
 static lrcsi_blocks blocks;
 static lrcsi_cells_sample sample;
 static lrcsi_cells_surface surface;
-static uint32_t listed[FACETS], covers[FACETS], hit[FACETS];
-static uint32_t surface_facet[FACETS], foreground[FACETS], adjoining[FACETS];
-static lrcsi_cell_border border[LRCSI_SURFACE_BORDERS];
-static unsigned char kind[FACETS], finding[FACETS], wanted[FACETS];
-static lrcsi_cells_facet facet[FACETS];
-static lrcsi_cells_segment segment[SEGMENTS];
+/* By the numbers of facets: */
+static unsigned char coplanar[FACETS], finding[FACETS], wanted[FACETS];
 static lrcsi_cell_area area[FACETS];
+static uint32_t record[FACETS];
+/* By the numbers of records: */
+static uint32_t listed[RECORDS], covers[RECORDS], hit[RECORDS];
+static uint32_t surface_facet[RECORDS], foreground[RECORDS], adjoining[RECORDS];
+static unsigned char record_finding[RECORDS], record_wanted[RECORDS];
+static lrcsi_cells_facet facet[RECORDS];
+static lrcsi_cell_area record_area[RECORDS];
+static lrcsi_cell_border border[LRCSI_SURFACE_BORDERS];
+static lrcsi_cells_segment segment[SEGMENTS];
 static lrcsi_cell stack[LRCSI_CELL_STACK];
 static lrcsi_cells_point point[SCENE_VERTICES];
 static uint32_t facet_lists[LISTS], segment_lists[LISTS];
 
 static void blocks_make(void)
 {
-    memset(kind, 0, sizeof kind);
+    memset(area, 0, sizeof area);
+    memset(finding, 0, sizeof finding);
+    memset(record, 0, sizeof record);
     memset(wanted, 1, sizeof wanted);
     memset(point, 0, sizeof point);
     memset(listed, 0, sizeof listed);
@@ -42,23 +50,26 @@ static void blocks_make(void)
                                     .foreground.entry = foreground,
                                     .adjoining.entry = adjoining};
     blocks = (lrcsi_blocks){.frame = {.view = &view, .point = point},
-                            .kind = kind,
+                            .coplanar = coplanar,
+                            .wanted = wanted,
+                            .area = area,
                             .finding = finding,
+                            .record_finding = record_finding,
                             .division = {.view = &view,
                                          .facet = facet,
+                                         .record = record,
+                                         .record_room = RECORDS,
                                          .segment = segment,
                                          .segment_room = SEGMENTS,
-                                         .wanted = wanted,
-                                         .area = area,
+                                         .wanted = record_wanted,
+                                         .area = record_area,
                                          .stack = stack,
                                          .facet_lists = facet_lists,
                                          .segment_lists = segment_lists,
                                          .facet_lists_room = LISTS,
                                          .segment_lists_room = LISTS}};
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        kind[f] = lrcsi_view_casts(&view, f) && lrcsi_cells_has_coplanar(&view, f)
-                      ? LRCSI_FACET_COPLANAR
-                      : 0;
+        coplanar[f] = lrcsi_view_casts(&view, f) && lrcsi_cells_has_coplanar(&view, f);
     }
     assert_int_equal(lrcsi_block_grid_make(&classification, NULL, &work, &blocks.grid), 1);
     lrcsi_cells_frame_make(&blocks.frame);
@@ -127,20 +138,20 @@ static void point_in(const lrcsi_clip_polygon *shape, uint64_t *random, double a
     at[1] /= sum;
 }
 
-static int in_surface(uint32_t f)
+static int in_surface(uint32_t number)
 {
     for (uint32_t i = 0; i < surface.facet_count; i++) {
-        if (surface.facet[i] == f) {
+        if (surface.facet[i] == number) {
             return 1;
         }
     }
     return 0;
 }
 
-static int in_cell(const lrcsi_cell *cell, uint32_t f)
+static int in_cell(const lrcsi_cell *cell, uint32_t number)
 {
     for (uint32_t i = 0; i < cell->facet_count; i++) {
-        if (cell->facet[i] == f) {
+        if (cell->facet[i] == number) {
             return 1;
         }
     }
@@ -160,7 +171,7 @@ static void check_sample(void)
         samples_found += nearest != LRCS_NONE;
     }
     if (nearest < AT_BORDER && sample.outcome == LRCSI_SAMPLE_FOUND) {
-        assert_int_equal(sample.nearest, nearest);
+        assert_int_equal(facet[sample.nearest].facet, nearest);
     }
 }
 
@@ -173,7 +184,7 @@ static void check_cover(const lrcsi_cell *cell, uint64_t *random)
         int count = 0;
         point_in(&cell->shape, random, at);
         for (uint32_t i = 0; i < surface.facet_count; i++) {
-            int place = place_in_facet(surface.facet[i], at, &z);
+            int place = place_in_facet(facet[surface.facet[i]].facet, at, &z);
             count += place == 0 ? 100 : place > 0;
         }
         assert_true(count == 1 || count >= 100);
@@ -183,8 +194,9 @@ static void check_cover(const lrcsi_cell *cell, uint64_t *random)
 /* What is removed is hidden at every point of the cell that it covers. */
 static void check_cull(const lrcsi_cell *before, const lrcsi_cell *after, uint64_t *random)
 {
-    for (uint32_t i = 0; i < scene.scene.facet_count; i++) {
-        if (!in_cell(before, i) || in_cell(after, i)) {
+    for (uint32_t k = 0; k < before->facet_count; k++) {
+        uint32_t i = before->facet[k];
+        if (in_cell(after, i)) {
             continue;
         }
         assert_false(in_surface(i));
@@ -192,7 +204,7 @@ static void check_cull(const lrcsi_cell *before, const lrcsi_cell *after, uint64
         for (int n = 0; n < 10; n++) {
             double at[2];
             point_in(&after->shape, random, at);
-            assert_int_not_equal(nearest_at(at), i);
+            assert_int_not_equal(nearest_at(at), facet[i].facet);
         }
         culled++;
     }
@@ -222,7 +234,7 @@ static void check_culled_edges(const lrcsi_cell *before, const lrcsi_cell *after
             }
             for (uint32_t k = 0; k < surface.facet_count && inside > BORDER; k++) {
                 double z;
-                if (place_in_facet(surface.facet[k], at, &z) > 0) {
+                if (place_in_facet(facet[surface.facet[k]].facet, at, &z) > 0) {
                     check_most(at[2], z + BORDER);
                     culled_edges++;
                 }
@@ -235,7 +247,7 @@ static void check_culled_edges(const lrcsi_cell *before, const lrcsi_cell *after
 static void take_sample(lrcsi_cell *cell, lrcsi_clip_sides *s)
 {
     lrcsi_division *d = &blocks.division;
-    lrcsi_cells_sample_clear(&sample, scene.scene.facet_count);
+    lrcsi_cells_sample_clear(&sample, RECORDS);
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         listed[cell->facet[i]] = sample.listed.number;
     }
@@ -289,8 +301,7 @@ static void begin_block(uint32_t block)
     blocks.division.extent = lrcsi_block_grid_square(&blocks.grid, block % size, block / size,
                                                      &cell.shape, blocks.frame.middle);
     blocks.frame.block = block + 1;
-    lrcsi_cells_sample_clear(&sample, scene.scene.facet_count);
-    assert_int_equal(lrcsi_blocks_begin(&blocks, block, &sample.listed, &cell), 1);
+    assert_int_equal(lrcsi_blocks_begin(&blocks, block, &cell), 1);
 }
 
 static void check_scene(uint64_t *random)
@@ -304,6 +315,7 @@ static void check_scene(uint64_t *random)
             process(&cell, random);
         }
         blocks.division.stack_count = 0;
+        lrcsi_blocks_end(&blocks, block);
     }
 }
 
@@ -347,12 +359,13 @@ static void the_nearest_is_found_where_heights_do_not_tell(void **state)
                 lrcsi_cell cell = stack[--blocks.division.stack_count];
                 take_sample(&cell, &s);
                 if (sample.outcome == LRCSI_SAMPLE_FOUND) {
-                    assert_int_equal(sample.nearest, upper);
+                    assert_int_equal(facet[sample.nearest].facet, upper);
                     found++;
                 } else if (cell.segment_count > 0) {
                     lrcsi_cells_divide(&blocks.division, &cell, &s, &segment[cell.segment[0]]);
                 }
             }
+            lrcsi_blocks_end(&blocks, block);
         }
     }
     assert_true(found >= 24);

@@ -28,8 +28,10 @@ lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options
 {
     int requested = has_effect(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
                     (p->two_sided && has_effect(options->with, LRCS_EFFECT_TWO_SIDED));
-    int cast = (!p->solid || (requested && !shadows_omitted(options))) &&
-               !has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
+    int cast = requested && !shadows_omitted(options) ? LRCSI_BACKS_ALL
+               : p->solid                             ? LRCSI_BACKS_NONE
+                                                      : LRCSI_BACKS_OPEN;
+    cast = has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS) ? LRCSI_BACKS_NONE : cast;
     return (lrcsi_view_backs){cast, cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED)};
 }
 
@@ -161,7 +163,7 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
     if (plan->method == LRCS_METHOD_FACET || plan->method == LRCS_METHOD_CLOSED) {
         return (lrcs_effect){0, "no self-shadowing"};
     }
-    return view->backs.cast ? (lrcs_effect){1, "not proved closed and outward"}
+    return view->backs.cast ? (lrcs_effect){1, "some surfaces are not proved closed and outward"}
                             : (lrcs_effect){0, "left out on request"};
 }
 

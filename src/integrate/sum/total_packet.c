@@ -16,13 +16,25 @@
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
 
-/* May some of a facet be visible, by any method? Given: the side that faces the laser, 1, or -1 for
-   the back. A redundant facet is not visible; a facet that coincides with it is seen instead. */
+/* The least lrcsi_redundant of facets that are not visible, others being seen instead. Given: the
+   side that faces the laser, 1, or -1 for the back. */
+static inline int least_redundant(const lrcsi_total_run *run, int side)
+{
+    return side > 0 ? LRCSI_REDUNDANT : run->view->backs.cast;
+}
+
+/* May some of a facet be visible, by any method? */
 static inline int side_may_be_visible(const lrcsi_total_run *run, uint32_t facet, int side)
 {
-    int limit = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
     return run->areas->visible ? lrcsi_areas_may_be_visible(run->areas, facet)
-                               : run->view->prepared->redundant[facet] < limit;
+                               : run->view->prepared->redundant[facet] < least_redundant(run, side);
+}
+
+/* Are there facets that are not visible, or shapes that are not added facet by facet? */
+static inline int are_divided(const lrcsi_total_run *run, int side)
+{
+    return run->areas->visible || run->clear ||
+           run->view->prepared->batches.redundant >= least_redundant(run, side);
 }
 
 /* The facets of one material. Those that can be evaluated in packets are collected until there are
@@ -209,7 +221,7 @@ static void add_selected(lrcsi_total_run *run, total_batch *batch, uint32_t star
         list[count] = start + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (run->areas->visible || run->clear || run->view->prepared->batches.redundant) {
+    if (are_divided(run, side)) {
         single_facets single;
         uint32_t packed = divide_facets(run, side, list, count, &single);
         for (uint32_t k = 0; k < single.clear; k++) {
@@ -245,7 +257,7 @@ static void add_back_areas(lrcsi_total_run *run, total_batch *batch, uint32_t st
     const double *d = run->view->unit;
     double area[LRCSI_LANES] = {0}; /* projected */
     uint32_t count = 0;
-    if (run->areas->visible || b->redundant) {
+    if (run->areas->visible || b->redundant >= least_redundant(run, -1)) {
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
             if (pick[i] >> 63) {
                 uint32_t facet = b->facet[start + i];

@@ -54,8 +54,8 @@ typedef struct search_leaf {
 typedef struct contact_search {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
-    const uint32_t *shell; /* or NULL */
-    unsigned char *proved; /* welded vertex: 1 if its fan is proved */
+    const lrcsi_shells *shells; /* or NULL */
+    unsigned char *proved;      /* welded vertex: 1 if its fan is proved */
     lrcsi_tree tree;
     search_leaf *leaf;
     uint64_t excess;      /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
@@ -146,7 +146,7 @@ static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_f
                       uint32_t other, const lrcsi_pair_facet *t, const lrcsi_pair_result *result)
 {
     lrcsi_intersections *intersections = search->intersections;
-    const uint32_t *shell = search->shell;
+    const lrcsi_shells *shells = search->shells;
     int status = LRCS_OK;
     unsigned sides[2];
     sides_along(f, t, sides);
@@ -158,8 +158,9 @@ static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_f
     if (result->kind[1] != LRCSI_INTERSECTION_NONE && status == LRCS_OK) {
         status = append_found(search, (found_contact){other, facet, (uint32_t)result->kind[1]});
     }
-    if (shell && !intersections->self && shell[facet] == shell[other]) {
-        intersections->self = result->kind[0] != LRCSI_INTERSECTION_NONE ||
+    uint32_t shell = shells ? shells->of[facet] : LRCS_NONE;
+    if (shell != LRCS_NONE && shell == shells->of[other] && !shells->self[shell]) {
+        shells->self[shell] = result->kind[0] != LRCSI_INTERSECTION_NONE ||
                               result->kind[1] != LRCSI_INTERSECTION_NONE ||
                               lrcsi_pair_on_side(f, t);
     }
@@ -445,7 +446,7 @@ size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size
 int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
                             const lrcs_facet *facet, uint32_t facet_count,
                             const lrcsi_topology *topology, const unsigned char *skip,
-                            const uint32_t *shell, lrcs_work *work,
+                            const lrcsi_shells *shells, lrcs_work *work,
                             lrcsi_intersections *intersections)
 {
     size_t start = work->used;
@@ -455,7 +456,7 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
     size_t mark = work->used;
     contact_search search = {.vertex = vertex,
                              .facet = facet,
-                             .shell = shell,
+                             .shells = shells,
                              .slab_of = LRCS_NONE,
                              .work = work,
                              .intersections = &t};

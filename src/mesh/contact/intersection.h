@@ -23,9 +23,14 @@ typedef struct lrcsi_intersections {
     unsigned char *met; /* facet: not 0 if another facet meets it or a side of it, except in common
                            corners and along common sides; then also a bit for each of its sides
                            (lrcsi_intersection_along) */
-    int self; /* 1: a facet meets the interior or a side of another one of its own shell; 0 if not,
-                 or if shells are not given */
 } lrcsi_intersections;
+
+/* Parts of a surface, each named by one of its facets. */
+typedef struct lrcsi_shells {
+    uint32_t *of;        /* facet: its shell; LRCS_NONE if it is in none */
+    unsigned char *self; /* shell: 1 if a facet of it meets the interior or a side of another one of
+                            it */
+} lrcsi_shells;
 
 /* How many contacts a facet has. */
 static inline uint32_t lrcsi_intersection_of(const lrcsi_intersections *intersections,
@@ -54,10 +59,9 @@ static inline int lrcsi_intersection_along(const lrcsi_intersections *intersecti
     return (intersections->met[facet] >> (k + 1) & 1) != 0;
 }
 
-/* Finds all contacts. Facets marked in `skip` (degenerate, omitted) have none. `shell`, unless
-   NULL, names the shell of each facet (facets connected across edges); then `self` is decided too,
-   which includes a corner of one facet on a side of another, ends excluded: that alone is no
-   contact.
+/* Finds all contacts. Facets marked in `skip` (degenerate, omitted) have none. Of `shells`, unless
+   NULL, self[] is set where it becomes 1; that includes a corner of one facet on a side of another,
+   ends excluded: that alone is no contact.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
    Work: almost linear on ordinary meshes, quadratic if all facets overlap each other. The result
    stays in the work area, and scratch memory is released; lrcsi_intersection_need bytes suffice for
@@ -66,7 +70,7 @@ size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size
 int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
                             const lrcs_facet *facet, uint32_t facet_count,
                             const lrcsi_topology *topology, const unsigned char *skip,
-                            const uint32_t *shell, lrcs_work *work,
+                            const lrcsi_shells *shells, lrcs_work *work,
                             lrcsi_intersections *intersections);
 
 #endif

@@ -33,12 +33,14 @@ static inline lrcsi_visible_area lrcsi_visible_area_unshadowed(const lrcsi_incid
     return (lrcsi_visible_area){incidence->projected, low, incidence->projected, 0, 0};
 }
 
-/* A visible area, corrected for back sides. In a scene that is closed and outward they are never
-   visible: there a search that did not find one hidden does not prove that it is visible. */
+/* A visible area, corrected for back sides. Those of solid shells are never visible: that a search
+   did not find one hidden does not prove that it is visible. */
 static inline lrcsi_visible_area lrcsi_visible_area_proved(const lrcsi_view *view, uint32_t facet,
                                                            lrcsi_visible_area visible)
 {
-    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    const lrcs_prepared *p = view->prepared;
+    int never = p->solid || p->redundant[facet] == LRCSI_REDUNDANT_IN_SOLID;
+    visible.low = never && view->facing[facet] < 0 ? 0 : visible.low;
     return visible;
 }
 
