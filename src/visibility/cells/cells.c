@@ -247,7 +247,9 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
         }
         thin = lrcsi_cells_thin_uncertainty(cell, &s, sample->border_distance,
                                             cell->removed + surface->border_count, d->facet_err);
-        lrcsi_cells_cull(b, cell, &s, surface, thin, sample);
+        if (!covers || cell->segment_count > 0) { /* else it is decided */
+            lrcsi_cells_cull(b, cell, &s, surface, thin, sample);
+        }
     }
     if (covers) {
         cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
@@ -456,13 +458,14 @@ static int allocate_facets(lrcs_work *work, cells_job *job)
     b->coplanar = lrcsi_work_take_zero(work, count, 1);
     b->area = lrcsi_work_take_zero(work, count, sizeof *b->area);
     d->record = lrcsi_work_take_zero(work, count, sizeof *d->record);
-    b->frame.point = lrcsi_work_take_zero(work, scene->vertex_count, sizeof *b->frame.point);
+    b->frame.made = lrcsi_work_take_zero(work, scene->vertex_count, 1);
+    b->frame.point = lrcsi_work_take(work, scene->vertex_count, sizeof *b->frame.point);
     d->facet_lists_room = BLOCK_FACET_LISTS * (size_t)count;
     d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
     job->surface.border = lrcsi_work_take(work, LRCSI_SURFACE_BORDERS, sizeof *job->surface.border);
     d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
     return (!job->moment || job->reach) && b->finding && b->coplanar && b->area && d->record &&
-           b->frame.point && d->facet_lists && job->surface.border && d->stack;
+           b->frame.made && b->frame.point && d->facet_lists && job->surface.border && d->stack;
 }
 
 /* Allocates the arrays by record and those of segments, for the largest block. */

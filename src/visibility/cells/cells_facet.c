@@ -76,14 +76,15 @@ static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_
     double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
     p->line_err = 256 * LRCSI_U * LRCSI_U * far;
     p->z_err = 20 * LRCSI_U * far;
-    p->made = 1;
+    p->block = 0;
 }
 
 const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex)
 {
     lrcsi_cells_point *p = &c->point[vertex];
-    if (!p->made) {
+    if (!c->made[vertex]) {
         point_make(c, vertex, p);
+        c->made[vertex] = 1;
     }
     if (p->block != c->block) {
         for (int k = 0; k < 2; k++) {

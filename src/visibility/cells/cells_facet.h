@@ -51,7 +51,6 @@ typedef struct lrcsi_cells_point {
     double err;      /* error of `local`, rounded, and of its distance from a line */
     double line_err; /* error of lines through it within the block, in addition to 16 u b */
     double z_err;
-    uint32_t made;  /* 0: not computed yet */
     uint32_t block; /* of `local` */
 } lrcsi_cells_point;
 
@@ -59,6 +58,7 @@ typedef struct lrcsi_cells_point {
 typedef struct lrcsi_cells_frame {
     const lrcsi_view *view;
     double axis_low[2][3];
+    unsigned char *made;      /* vertex: 1 if its point is computed */
     lrcsi_cells_point *point; /* vertex */
     double middle[2];         /* of the current block */
     uint32_t block;           /* its number, from 1 */
