@@ -247,6 +247,15 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_need(facets, max_event_entries(prepared)));
 }
 
+static uint32_t count_casters(const lrcsi_view *view)
+{
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        count += lrcsi_view_casts(view, f) != 0;
+    }
+    return count;
+}
+
 /* The grid of events has about one bucket for every facet that can hide others: then most facets
    meet no bucket that lists an event, and need no further test. Called: lrcsi_boxes_make,
    lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide. */
@@ -257,7 +266,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     uint32_t count = view->prepared->scene->facet_count;
     size_t room = lrcsi_meshlets_room(count);
     lrcsi_classification c = {.view = view, .search = {.view = view}};
-    c.search.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
+    c.search.grid = lrcsi_grid_empty(view, count_casters(view));
     c.undecided = lrcsi_work_take_zero(work, count, 1);
     c.search.component = c.component = lrcsi_work_take(work, room, sizeof *c.component);
     int status = c.undecided && c.component && lrcsi_facet_signs_take(count, work, &c.joinable)
