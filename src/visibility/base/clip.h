@@ -18,6 +18,17 @@ typedef struct lrcsi_clip_polygon {
 } lrcsi_clip_polygon;
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
+
+/* A copy of the corners that there are. */
+static inline void lrcsi_clip_copy(const lrcsi_clip_polygon *from, lrcsi_clip_polygon *to)
+{
+    to->count = from->count;
+    for (uint32_t i = 0; i < from->count; i++) {
+        to->corner[i][0] = from->corner[i][0];
+        to->corner[i][1] = from->corner[i][1];
+    }
+}
+
 double lrcsi_clip_area(const lrcsi_clip_polygon *polygon);
 /* The longest side of a triangle: the number of the corner at which it begins. *square: its length,
    squared. */

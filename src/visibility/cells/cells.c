@@ -111,7 +111,8 @@ static void add_visible_area(cells_job *job, const lrcsi_cell *cell, const lrcsi
     lrcsi_division *d = &job->blocks.division;
     const lrcsi_cells_facet *f = &d->facet[facet];
     lrcsi_cell_area *area = &d->area[facet];
-    lrcsi_clip_polygon piece = cell->shape;
+    lrcsi_clip_polygon piece;
+    lrcsi_clip_copy(&cell->shape, &piece);
     double w = f->err + s->tolerance;
     double wide[2];
     for (int k = 0; k < 2; k++) {
@@ -298,11 +299,12 @@ static int block_is_wanted(const lrcsi_blocks *b, size_t block)
 static int process_cells(cells_job *job)
 {
     lrcsi_division *d = &job->blocks.division;
-    lrcsi_cell cell = d->stack[0];
+    const lrcsi_cell *first = &d->stack[0];
     uint64_t steps_left =
-        STEPS_CONSTANT + STEPS_PER_ITEM * (uint64_t)(cell.facet_count + cell.segment_count);
+        STEPS_CONSTANT + STEPS_PER_ITEM * (uint64_t)(first->facet_count + first->segment_count);
     while (d->stack_count > 0) {
-        cell = d->stack[--d->stack_count];
+        lrcsi_cell cell;
+        lrcsi_cell_copy(&d->stack[--d->stack_count], &cell);
         uint64_t steps = (uint64_t)1 + cell.facet_count + cell.segment_count;
         if (steps > steps_left || !lrcsi_meter_take(d->meter, steps)) {
             return 0;

@@ -395,11 +395,11 @@ static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_
     }
     lrcsi_cell *right = &d->stack[d->stack_count];
     lrcsi_cell *left = right + 1;
-    *right = *cell;
+    lrcsi_cell_copy(cell, right);
     right->cuts++;
     right->removed += along != NULL;
     right->widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
-    *left = *right;
+    lrcsi_cell_copy(right, left);
     double divide_err = lrcsi_clip_divide(&cell->shape, line, &left->shape, &right->shape);
     if (!(divide_err >= 0) || left->shape.count < 3 || right->shape.count < 3) {
         return 0;

@@ -4,6 +4,9 @@
 #ifndef LRCSI_CELLS_DIVISION_H
 #define LRCSI_CELLS_DIVISION_H
 
+#include <stddef.h>
+#include <string.h>
+
 #include "base/constant.h"
 #include "base/meter.h"
 #include "visibility/cells/cells_facet.h"
@@ -21,7 +24,6 @@
    one waits on the stack. The lists of the right one take the place of those of the cell that was
    cut; behind them follow those of the left one. */
 typedef struct lrcsi_cell {
-    lrcsi_clip_polygon shape;
     uint32_t *facet, *segment; /* numbers of records of the division, in the division's lists */
     uint32_t facet_count, segment_count;
     uint32_t cuts;       /* since the division began */
@@ -30,7 +32,15 @@ typedef struct lrcsi_cell {
     double uncertainty;  /* area not charged yet, by which that of any facet may be wrong */
     double widest_strip; /* of a segment removed from the list */
     double cut_line[3];  /* of the last cut; positive in the cell */
+    lrcsi_clip_polygon shape; /* the last member (lrcsi_cell_copy) */
 } lrcsi_cell;
+
+/* A copy of a cell; of its shape, only the corners that there are. */
+static inline void lrcsi_cell_copy(const lrcsi_cell *from, lrcsi_cell *to)
+{
+    memcpy(to, from, offsetof(lrcsi_cell, shape));
+    lrcsi_clip_copy(&from->shape, &to->shape);
+}
 
 /* Areas of a facet. */
 typedef struct lrcsi_cell_area {

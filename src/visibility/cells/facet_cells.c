@@ -190,7 +190,8 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
 {
     lrcsi_division *d = &cells->division;
     while (d->stack_count > 0) {
-        lrcsi_cell cell = d->stack[--d->stack_count];
+        lrcsi_cell cell;
+        lrcsi_cell_copy(&d->stack[--d->stack_count], &cell);
         uint64_t steps = (uint64_t)1 + cell.segment_count; /* samples count theirs */
         if (cells->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
             leave_area_undecided(cells, lrcsi_clip_area(&cell.shape));
