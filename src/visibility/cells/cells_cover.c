@@ -234,6 +234,8 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     lrcsi_marks_clear(&surface->adjoining, d->record_room);
     const uint32_t number = surface->foreground.number;
     uint32_t *const mark = surface->foreground.entry;
+    const uint32_t *const listed = sample->listed.entry;
+    const uint32_t listed_number = sample->listed.number;
     surface->nearest = 1;
     surface->border_count = 0;
     surface->facet[0] = sample->nearest;
@@ -246,13 +248,14 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
         for (int k = 0; k < 3; k++) {
             lrcsi_cell_border side;
             uint32_t next = f->neighbour[k];
-            if (next != LRCS_NONE && mark[next] == number) {
+            int is_listed = next != LRCS_NONE && listed[next] == listed_number;
+            if (is_listed && (extent == LRCSI_SURFACE_LISTED || mark[next] == number)) {
+                surface->facet[count] = next; /* without a branch: which are new has no pattern */
+                count += mark[next] != number;
+                mark[next] = number;
                 continue;
             }
-            int is_listed = next != LRCS_NONE && lrcsi_marked(&sample->listed, next);
-            int place = is_listed && extent == LRCSI_SURFACE_LISTED
-                            ? LRCSI_CLIP_CROSSES
-                            : locate_side(cell, s, f, k, next != LRCS_NONE && !is_listed, &side);
+            int place = locate_side(cell, s, f, k, next != LRCS_NONE && !is_listed, &side);
             if (place == LRCSI_CLIP_CROSSES && is_listed) {
                 mark[next] = number;
                 surface->facet[count++] = next;
