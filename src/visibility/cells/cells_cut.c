@@ -305,13 +305,32 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
     return 1;
 }
 
+/* The corners that both parts of a cell have: the ends of the cut. */
+static void cut_ends(const lrcsi_clip_polygon *left, const lrcsi_clip_polygon *right,
+                     lrcsi_clip_polygon *ends)
+{
+    ends->count = 0;
+    for (uint32_t i = 0; i < left->count; i++) {
+        const double *p = left->corner[i];
+        for (uint32_t k = 0; k < right->count; k++) {
+            const double *q = right->corner[k];
+            if (p[0] == q[0] && p[1] == q[1]) {
+                memcpy(ends->corner[ends->count++], p, sizeof ends->corner[0]);
+                break;
+            }
+        }
+    }
+}
+
 /* Lists the facets of a cell that may be near its right part, and those that may be near its left
-   part. What is near neither is not in the cell. */
+   part. What is near neither is not in the cell. A facet that may be near the cut is near both. */
 static void cut_facets(lrcsi_division *d, const lrcsi_cell *cell, const cut_strip *strip,
                        lrcsi_cell *left, lrcsi_cell *right)
 {
     double tolerance = lrcsi_division_tolerance(d, left);
     uint32_t *of_left = cell->facet + cell->facet_count;
+    lrcsi_clip_polygon ends;
+    cut_ends(&left->shape, &right->shape, &ends);
     left->facet_count = right->facet_count = 0;
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t index = cell->facet[i];
@@ -325,8 +344,9 @@ static void cut_facets(lrcsi_division *d, const lrcsi_cell *cell, const cut_stri
             if (strip->along && d->wanted[index]) {
                 charge_cut(d, index, range[0], range[1], strip);
             }
-            on_left = !facet_beyond(f, &left->shape, f->err + tolerance);
-            on_right = !facet_beyond(f, &right->shape, f->err + tolerance);
+            int at_cut = !facet_beyond(f, &ends, f->err + tolerance);
+            on_left = at_cut || !facet_beyond(f, &left->shape, f->err + tolerance);
+            on_right = at_cut || !facet_beyond(f, &right->shape, f->err + tolerance);
         }
         of_left[left->facet_count] = index;
         left->facet_count += on_left != 0;
