@@ -29,6 +29,7 @@ static lrcsi_cell_area record_area[RECORDS];
 static lrcsi_cell_border border[LRCSI_SURFACE_BORDERS];
 static lrcsi_cells_segment segment[SEGMENTS];
 static lrcsi_cell stack[LRCSI_CELL_STACK];
+static unsigned char made[SCENE_VERTICES];
 static lrcsi_cells_point point[SCENE_VERTICES];
 static uint32_t facet_lists[LISTS], segment_lists[LISTS];
 
@@ -38,7 +39,7 @@ static void blocks_make(void)
     memset(finding, 0, sizeof finding);
     memset(record, 0, sizeof record);
     memset(wanted, 1, sizeof wanted);
-    memset(point, 0, sizeof point);
+    memset(made, 0, sizeof made);
     memset(listed, 0, sizeof listed);
     memset(covers, 0, sizeof covers);
     memset(foreground, 0, sizeof foreground);
@@ -49,7 +50,7 @@ static void blocks_make(void)
                                     .border = border,
                                     .foreground.entry = foreground,
                                     .adjoining.entry = adjoining};
-    blocks = (lrcsi_blocks){.frame = {.view = &view, .point = point},
+    blocks = (lrcsi_blocks){.frame = {.view = &view, .made = made, .point = point},
                             .coplanar = coplanar,
                             .wanted = wanted,
                             .area = area,

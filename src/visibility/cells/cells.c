@@ -427,6 +427,7 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
+    size_t vertices = prepared->scene->vertex_count;
     size_t records = facets + 1;
     size_t need = lrcsi_work_add(lrcsi_work_blocks(2, facets, 1), lrcsi_work_blocks(2, records, 1));
     need = lrcsi_work_add(need, prepared->proximity.reach ? lrcsi_work_bytes(facets, sizeof(double))
@@ -435,8 +436,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_work_bytes(records, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(records, sizeof(lrcsi_cell_area)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cell_area)));
-    need = lrcsi_work_add(
-        need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, sizeof(lrcsi_cells_point)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(6, records, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, BLOCK_FACET_LISTS * sizeof(uint32_t)));

@@ -29,7 +29,7 @@ static uint64_t max_entries(const lrcs_prepared *p)
    times as many, and so on, if their lists would otherwise be too long. They fill the whole view
    or, if that would take too many blocks, the window of the scene's bulk. Border blocks around
    them hold what is outside. The number is heuristic: cells are cut until they are decided. */
-#define BLOCK 5u
+#define BLOCK 4u
 
 /* The largest number of blocks, border blocks included. */
 static size_t max_blocks(const lrcs_prepared *p)

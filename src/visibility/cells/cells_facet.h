@@ -12,15 +12,15 @@
 
 /* The record of a facet that can hide others (lrcsi_view_casts), in view coordinates. */
 typedef struct lrcsi_cells_facet {
+    double low[2], high[2]; /* its box */
+    double err;             /* error of its vertices, and of their distances from a line */
+    double z_low, z_high;   /* bounds of z of all of it */
+    double line_err;        /* error of its sides within the block, in addition to 16 u b */
     double x[3], y[3];      /* corners, counter-clockwise */
     double side[3][3];      /* distance from the line of side k: a x + b y + c, positive inside */
     double length[3];       /* of the sides, upper bounds */
     double z[3];            /* the plane: a x + b y + c */
     double plane_err[2];    /* the error of z at a point within w of the facet is [0] + [1] w */
-    double z_low, z_high;   /* bounds of z of all of it */
-    double low[2], high[2]; /* its box */
-    double err;             /* error of its vertices, and of their distances from a line */
-    double line_err;        /* error of its sides within the block, in addition to 16 u b */
     double z_err;           /* error of z of its vertices */
     uint32_t neighbour[3];  /* the record of the facet that continues it across each side; 0: that
                                facet is not in the block; LRCS_NONE: there is none */
