@@ -160,7 +160,7 @@ static int in_cell(const lrcsi_cell *cell, uint32_t number)
 }
 
 /* What was compared how often. */
-static unsigned samples_found, samples_empty, covered, occluded, culled, culled_edges;
+static unsigned samples_found, samples_empty, kept_samples, covered, occluded, culled, culled_edges;
 
 static void check_sample(void)
 {
@@ -244,17 +244,23 @@ static void check_culled_edges(const lrcsi_cell *before, const lrcsi_cell *after
     }
 }
 
-/* Takes a sample in a cell; *s: the sides of the cell. */
-static void take_sample(lrcsi_cell *cell, lrcsi_clip_sides *s)
+/* Takes a sample in a cell, or keeps that of the cell before; *s: the sides of the cell. Returns 1
+   if it is kept, with the surface. */
+static int take_sample(lrcsi_cell *cell, lrcsi_clip_sides *s)
 {
     lrcsi_division *d = &blocks.division;
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), s);
+    lrcsi_cells_filter_segments(d, cell, s);
+    if (cell->keeps_sample && lrcsi_cells_sample_keep(d, cell, s, &sample)) {
+        lrcsi_cells_surface_keep(d, cell, &surface);
+        return 1;
+    }
     lrcsi_cells_sample_clear(&sample, RECORDS);
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         listed[cell->facet[i]] = sample.listed.number;
     }
-    lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), s);
-    lrcsi_cells_filter_segments(d, cell, s);
     lrcsi_cells_sample_take(d, cell, s, &sample);
+    return 0;
 }
 
 /* Takes a sample in a cell, finds what covers it, removes what is behind; and cuts it along its
@@ -265,12 +271,16 @@ static void process(lrcsi_cell *cell, uint64_t *random)
     static uint32_t segments_before[SEGMENTS];
     lrcsi_division *d = &blocks.division;
     lrcsi_clip_sides s;
-    take_sample(cell, &s);
+    int kept = take_sample(cell, &s);
+    int component_covers = 0;
     check_sample();
+    kept_samples += kept != 0;
     if (sample.outcome == LRCSI_SAMPLE_FOUND) {
         int covers_cell =
+            kept ||
             lrcsi_cells_surface_find(&blocks, cell, &s, &sample, LRCSI_SURFACE_LISTED, &surface) ||
             lrcsi_cells_surface_find(&blocks, cell, &s, &sample, LRCSI_SURFACE_IN_CELL, &surface);
+        component_covers = covers_cell;
         covered += covers_cell != 0;
         if (!covers_cell && lrcsi_cells_surface_occluder(&blocks, cell, &s, &sample, &surface)) {
             covers_cell = 1;
@@ -290,7 +300,8 @@ static void process(lrcsi_cell *cell, uint64_t *random)
     }
     if (cell->segment_count > 0) {
         lrcsi_cells_divide(d, cell, &s,
-                           &segment[cell->segment[random_below(random, cell->segment_count)]]);
+                           &segment[cell->segment[random_below(random, cell->segment_count)]],
+                           component_covers ? sample.at : NULL);
     }
 }
 
@@ -324,7 +335,7 @@ static void cells_agree_with_all_facets(void **state)
 {
     (void)state;
     uint64_t random = 20261203;
-    for (int n = 0; n < 48; n++) {
+    for (int n = 0; n < 72; n++) {
         if (n % 2 == 0) {
             scene_terrain(&random, 8, 12);
         } else {
@@ -334,7 +345,8 @@ static void cells_agree_with_all_facets(void **state)
         check_scene(&random);
     }
     assert_true(samples_found > 1000 && samples_empty > 100);
-    assert_true(covered > 500 && occluded > 20 && culled > 500 && culled_edges > 500);
+    assert_true(kept_samples > 100 && covered > 500 && occluded > 20 && culled > 500 &&
+                culled_edges > 500);
 }
 
 /* Of two level facets, one above the other by no more than their heights may be off by, the exact
@@ -358,12 +370,13 @@ static void the_nearest_is_found_where_heights_do_not_tell(void **state)
             while (blocks.division.stack_count > 0) {
                 lrcsi_clip_sides s;
                 lrcsi_cell cell = stack[--blocks.division.stack_count];
-                take_sample(&cell, &s);
+                (void)take_sample(&cell, &s);
                 if (sample.outcome == LRCSI_SAMPLE_FOUND) {
                     assert_int_equal(facet[sample.nearest].facet, upper);
                     found++;
                 } else if (cell.segment_count > 0) {
-                    lrcsi_cells_divide(&blocks.division, &cell, &s, &segment[cell.segment[0]]);
+                    lrcsi_cells_divide(&blocks.division, &cell, &s, &segment[cell.segment[0]],
+                                       NULL);
                 }
             }
             lrcsi_blocks_end(&blocks, block);

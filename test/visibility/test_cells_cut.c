@@ -153,7 +153,7 @@ static void the_parts_of_a_cell_make_up_the_cell(void **state)
         segment_set(0, 1, 0.4 * random_unit(&random) - 0.2, -1, 0.4 * random_unit(&random) - 0.2,
                     0);
         division_set(&shape, FACETS, SEGMENTS);
-        assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0]));
+        assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0], NULL));
         assert_int_equal(division.stack_count, 2);
         const lrcsi_cell *right = &stack[0];
         const lrcsi_cell *left = &stack[1];
@@ -207,11 +207,38 @@ static void a_cut_charges_the_facets_that_it_crosses(void **state)
     segment[0].owner[0] = 3;
     division_set(&unit_square, 5, 1);
     wanted[4] = 0;
-    assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0]));
+    assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0], NULL));
     const double length[5] = {1, 0.75, 0, 0.5, 0}; /* of a strip of two sides */
     for (int i = 0; i < 5; i++) {
         check_most(2 * w * length[i], area[i].uncertainty * (1 + 1e-15));
         check_most(area[i].uncertainty, length[i] > 0 ? 2 * w * (length[i] + 3 * 0x1p34 * w) : 0);
+    }
+}
+
+/* The part of a cell that a sample is in is processed next, whichever side of the segment it is on.
+   Only that part keeps the sample. */
+static void the_part_with_the_sample_is_next(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double at[2] = {k % 2 ? 0.75 : 0.25, 0.5};
+        facet_set(0, -1, -1, 3, -1, -1, 3);
+        segment_set(0, 0.5, k < 2 ? -0.5 : 1.5, 0.5, k < 2 ? 1.5 : -0.5, 0);
+        division_set(&unit_square, 1, 1);
+        assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0], at));
+        assert_int_equal(division.stack_count, 2);
+        for (uint32_t part = 0; part < 2; part++) {
+            const lrcsi_cell *c = &division.stack[part];
+            double low[2];
+            double high[2];
+            lrcsi_clip_box(&c->shape, low, high);
+            assert_int_equal(c->keeps_sample, part == 1);
+            assert_int_equal(low[0] < at[0] && at[0] < high[0], part == 1);
+            assert_true(lrcsi_line_at(c->cut_line, 0.5 * (low[0] + high[0]), 0.5) > 0);
+        }
+        division_set(&unit_square, 1, 1);
+        assert_true(lrcsi_cells_divide(&division, &cell, &sides, &segment[0], NULL));
+        assert_int_equal(division.stack[0].keeps_sample + division.stack[1].keeps_sample, 0);
     }
 }
 
@@ -281,7 +308,8 @@ static void a_cell_without_room_is_not_cut(void **state)
             division.stack_count = limit == 1 ? LRCSI_CELL_STACK - 2 + (uint32_t)over : 0;
             division.facet_lists_room = limit == 2 ? 2 - (size_t)over : LISTS;
             division.segment_lists_room = limit == 3 ? 4 - (size_t)over : LISTS;
-            assert_int_equal(lrcsi_cells_divide(&division, &cell, &sides, &segment[0]), !over);
+            assert_int_equal(lrcsi_cells_divide(&division, &cell, &sides, &segment[0], NULL),
+                             !over);
         }
     }
 }
@@ -292,6 +320,7 @@ int main(void)
         cmocka_unit_test(the_parts_of_a_cell_make_up_the_cell),
         cmocka_unit_test(a_cell_is_halved_across_its_longer_side),
         cmocka_unit_test(a_cut_charges_the_facets_that_it_crosses),
+        cmocka_unit_test(the_part_with_the_sample_is_next),
         cmocka_unit_test(segments_that_do_not_cross_leave_the_list),
         cmocka_unit_test(a_thin_cell_is_undecided_along_its_strips),
         cmocka_unit_test(a_narrow_cell_is_charged_whole),

@@ -218,8 +218,13 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
     lrcsi_cells_filter_segments(d, cell, &s);
 
-    /* 1. Take a sample. */
-    lrcsi_cells_sample_take(d, cell, &s, sample);
+    /* 1. Take a sample, unless that of the cell before, which was covered, serves for this part. */
+    int kept = cell->keeps_sample && lrcsi_cells_sample_keep(d, cell, &s, sample);
+    if (kept) {
+        lrcsi_cells_surface_keep(d, cell, surface);
+    } else {
+        lrcsi_cells_sample_take(d, cell, &s, sample);
+    }
     if (sample->outcome == LRCSI_SAMPLE_UNSURE && lrcsi_cells_charge_all(d, cell, &s)) {
         add_finding(b, cell, LRCSI_FINDING_CHARGED);
         return 0;
@@ -229,8 +234,8 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
        segments. */
     const lrcsi_cells_segment *cut = NULL;
     int found = sample->outcome == LRCSI_SAMPLE_FOUND;
-    int covers =
-        found && lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_LISTED, surface);
+    int covers = kept || (found && lrcsi_cells_surface_find(b, cell, &s, sample,
+                                                            LRCSI_SURFACE_LISTED, surface));
     if (found && !covers) {
         cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
@@ -265,7 +270,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
             return 1;
         }
     }
-    if (!cut || !lrcsi_cells_divide(d, cell, &s, cut)) {
+    if (!cut || !lrcsi_cells_divide(d, cell, &s, cut, covers && thin == 0 ? sample->at : NULL)) {
         add_finding(b, cell, LRCSI_FINDING_UNDECIDED);
     }
     return 0;

@@ -33,6 +33,12 @@
 
    (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
 
+   (5) Let K cover the cell once and be nearest at P, and let P be in a part of the cell after a cut.
+   What (1) states of the points of the cell is then true of those of the part. It excludes strips at
+   the border of the cell. These are charged already to all facets of the list, unless the cell is
+   thin. So in a cell that is not thin, K and P serve for the part as well; (2) and (3) are applied
+   to them with the segments that the part has.
+
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both
    (lrcsi_intersection_along), or in a common plane. Such an edge, and every edge of a facet that
@@ -160,6 +166,20 @@ void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2])
     at[1] /= sum;
 }
 
+/* Is the sample farther from the border of the cell than any strip is wide? */
+static int is_inside(const lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                     const lrcsi_cells_sample *sample)
+{
+    return sample->border_distance > 4 * (cell->widest_strip + d->facet_err + s->tolerance);
+}
+
+int lrcsi_cells_sample_keep(const lrcsi_division *d, const lrcsi_cell *cell,
+                            const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
+{
+    sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
+    return is_inside(d, cell, s, sample);
+}
+
 void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
 {
@@ -168,7 +188,7 @@ void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
         lrcsi_cells_sample_clear(sample, d->record_room);
-        if (sample->border_distance > 4 * (cell->widest_strip + d->facet_err + s->tolerance)) {
+        if (is_inside(d, cell, s, sample)) {
             sample->outcome = sample_nearest(d, cell, s, sample);
         }
     }
@@ -274,6 +294,14 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
     }
     surface->facet_count = count;
     return covers && !mark_adjoining(d, cell, surface);
+}
+
+void lrcsi_cells_surface_keep(const lrcsi_division *d, const lrcsi_cell *cell,
+                              lrcsi_cells_surface *surface)
+{
+    lrcsi_marks_clear(&surface->adjoining, d->record_room);
+    surface->border_count = 0;
+    (void)mark_adjoining(d, cell, surface);
 }
 
 int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,

@@ -44,6 +44,11 @@ static inline void lrcsi_cells_sample_clear(lrcsi_cells_sample *sample, uint32_t
 void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, lrcsi_cells_sample *sample);
 
+/* Is the last sample, which is in the cell, far enough from the border of the cell to serve for it
+   as well? */
+int lrcsi_cells_sample_keep(const lrcsi_division *d, const lrcsi_cell *cell,
+                            const lrcsi_clip_sides *s, lrcsi_cells_sample *sample);
+
 /* The most edges of a surface at the border of a cell. */
 #define LRCSI_SURFACE_BORDERS 128u
 
@@ -72,6 +77,11 @@ enum lrcsi_surface_extent {
 int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                              int extent, lrcsi_cells_surface *surface);
+
+/* The component around the facet nearest at a sample, found in a cell that it covers, for a part of
+   that cell: only what it meets there is found again. */
+void lrcsi_cells_surface_keep(const lrcsi_division *d, const lrcsi_cell *cell,
+                              lrcsi_cells_surface *surface);
 
 /* Given: a component that does not cover the cell. Of the facets that each cover the cell alone,
    takes the one nearest at the sample as the surface. Returns 0 if there is none. The facets of the

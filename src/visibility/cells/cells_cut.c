@@ -388,10 +388,10 @@ static void middle_line(const lrcsi_clip_sides *s, double line[3])
     line[2] = wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1]);
 }
 
-/* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. 0 if
-   there is no room. */
+/* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. The
+   sample, if not NULL, is then in the left part. 0 if there is no room. */
 static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
-                    const lrcsi_cells_segment *along)
+                    const lrcsi_cells_segment *along, const double *sample)
 {
     double line[3];
     middle_line(s, line);
@@ -404,6 +404,11 @@ static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_
                           along->err + s->tolerance, along->err + s->tolerance, &interval);
         strip.from = interval.from * along->length;
         strip.to = interval.to * along->length;
+    }
+    if (sample && lrcsi_line_at(line, sample[0], sample[1]) < 0) {
+        for (int k = 0; k < 3; k++) {
+            line[k] = -line[k];
+        }
     }
     /* Room for two cells, and behind the lists of those that wait for the lists of both: */
     size_t facets = (size_t)(cell->facet - d->facet_lists) + 2 * (size_t)cell->facet_count;
@@ -419,7 +424,9 @@ static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_
     right->cuts++;
     right->removed += along != NULL;
     right->widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
+    right->keeps_sample = 0;
     lrcsi_cell_copy(right, left);
+    left->keeps_sample = sample != NULL;
     double divide_err = lrcsi_clip_divide(&cell->shape, line, &left->shape, &right->shape);
     if (!(divide_err >= 0) || left->shape.count < 3 || right->shape.count < 3) {
         return 0;
@@ -437,7 +444,7 @@ static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_
 
 int lrcsi_cells_halve(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
-    return cut_cell(d, cell, s, NULL);
+    return cut_cell(d, cell, s, NULL, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
@@ -463,9 +470,8 @@ static int halving_separates(const lrcsi_division *d, const lrcsi_cell *cell,
 }
 
 int lrcsi_cells_divide(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
-                       const lrcsi_cells_segment *along)
+                       const lrcsi_cells_segment *along, const double sample[2])
 {
-    return cell->shape.count > MAX_CORNERS || halving_separates(d, cell, s)
-               ? lrcsi_cells_halve(d, cell, s)
-               : cut_cell(d, cell, s, along);
+    int halved = cell->shape.count > MAX_CORNERS || halving_separates(d, cell, s);
+    return cut_cell(d, cell, s, halved ? NULL : along, sample);
 }

@@ -26,6 +26,7 @@
 typedef struct lrcsi_cell {
     uint32_t *facet, *segment; /* numbers of records of the division, in the division's lists */
     uint32_t facet_count, segment_count;
+    int keeps_sample;    /* 1: the sample taken in the cell that was cut is in this part */
     uint32_t cuts;       /* since the division began */
     uint32_t removed;    /* segments removed from the list since then */
     double shape_err;    /* the distance from the cell of a point that belongs to it, at most */

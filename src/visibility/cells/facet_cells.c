@@ -175,7 +175,7 @@ static int process_facet_cell(lrcsi_facet_cells *cells, lrcsi_cell *cell)
     /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
        negligible. */
     double narrow = NARROW * (cell->widest_strip + d->facet_err + s.tolerance) * s.perimeter;
-    if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
+    if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut, NULL)
                    : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(cells->halved_area, narrow) &&
                        lrcsi_cells_halve(d, cell, &s))) {
         double *perhaps = sample.guess ? &cells->perhaps_hidden : &cells->perhaps_visible;
