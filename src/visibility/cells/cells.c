@@ -12,7 +12,8 @@
    2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
    3. lrcsi_cells_sample_take takes a sample at a point P of the cell: it finds the facet nearest to
       the laser there. lrcsi_cells_surface_find finds the component of that facet: it follows the
-      surface across edges that are not events (proof: visibility/cells/cells_cover.c).
+      surface across edges that are not events (proof: visibility/cells/cells_cover.c). After a cut
+      of a cell that a component covers, the part with P keeps both.
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. So does a single facet that covers the cell (lrcsi_cells_surface_occluder). If an
