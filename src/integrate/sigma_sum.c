@@ -86,7 +86,7 @@ void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
 int lrcsi_sigma_has_proofs(const lrcsi_sigma *run)
 {
     return run->plan.fronts_visible || run->clear.count > 0 ||
-           (run->view.prepared->solid && run->view.backs.cast);
+           run->view.backs.cast == LRCSI_BACKS_ALL;
 }
 
 /* Replaces areas by what is proved about them:

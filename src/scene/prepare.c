@@ -170,9 +170,9 @@ static int contacts_of_convex_solid(lrcs_prepared *p, lrcs_work *work)
 }
 
 /* Finds the closed shells, then the contacts (it matters whether two facets in contact belong to
-   the same shell), then which shells are solid. Redundant facets are not searched, nor is the second
-   facet of an opposite pair, which gets a copy of the list of the first. This stage comes before the
-   normals, which reuse the memory of its scratch. */
+   the same shell), then which shells are solid. Redundant facets are not searched, nor is the
+   second facet of an opposite pair, which gets a copy of the list of the first. This stage comes
+   before the normals, which reuse the memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -189,8 +189,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     for (uint32_t f = 0; f < facets; f++) {
         excluded[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
-    lrcsi_solid_shells(p, shells.of, shells.self);
-    memset(shells.self, 0, facets);
+    lrcsi_solid_shells(p, &shells);
     int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
                                          &p->topology, excluded, &shells, work, &p->intersections);
     if (status == LRCS_OK) {

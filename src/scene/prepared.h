@@ -41,7 +41,7 @@ enum lrcsi_redundant {
 typedef struct lrcsi_neighbours {
     /* facet[f].corner[k]: the neighbour of facet f across its side from corner k to k + 1, which
        traverses the side in the opposite sense; the number of facets if there is none (a boundary
-       edge); f itself if the edge is irregular or f is redundant. */
+       edge); f itself if the edge is irregular or f is always redundant. */
     lrcs_facet *facet;
     uint32_t *irregular; /* irregular edges that have facets, ascending */
     uint32_t irregular_count;
@@ -163,9 +163,9 @@ struct lrcs_prepared {
     lrcsi_normal *normal;
     lrcsi_batches batches;             /* facets that are not skipped, by material */
     lrcsi_topology topology;           /* of all facets; its edges may include skipped ones */
-    lrcsi_neighbours neighbours;       /* of facets that are not redundant */
-    lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
-                                          facet and its opposite */
+    lrcsi_neighbours neighbours;       /* of facets that are not always redundant */
+    lrcsi_intersections intersections; /* between facets that are not always redundant, but not
+                                          between a facet and its opposite */
     lrcsi_meshlets meshlets;           /* facets that follow one another */
     double centre[3];                  /* of the box around the live facets */
     double radius;                     /* half its longest side: no live vertex is farther from the

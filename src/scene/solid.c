@@ -4,6 +4,7 @@
 #include "scene/solid.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/constant.h"
 #include "base/disjoint.h"
@@ -16,8 +17,10 @@
 
 /* A live facet has a neighbour across each side unless the edge is irregular or a boundary edge, or
    the facet is always redundant. */
-void lrcsi_solid_shells(const lrcs_prepared *p, uint32_t *shell, unsigned char *closed)
+void lrcsi_solid_shells(const lrcs_prepared *p, const lrcsi_shells *shells)
 {
+    uint32_t *shell = shells->of;
+    unsigned char *closed = shells->self; /* until the last step */
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         shell[f] = f;
@@ -41,6 +44,7 @@ void lrcsi_solid_shells(const lrcs_prepared *p, uint32_t *shell, unsigned char *
     for (uint32_t f = 0; f < count; f++) {
         shell[f] = closed[shell[f]] ? shell[f] : LRCS_NONE;
     }
+    memset(shells->self, 0, count);
 }
 
 /* Six times the signed volume of the tetrahedron of a facet and the point o, and a bound on its

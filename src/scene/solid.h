@@ -8,26 +8,27 @@
 
 /* Divides the surface into shells: facets are in the same one if they are connected across edges. A
    shell is closed if every edge of its facets has exactly two live facets, which traverse it in
-   opposite senses, and none of its facets coincides with another one. Returned: of each facet the
-   first facet of its shell, or LRCS_NONE if that is not closed. closed: scratch, for each facet. */
-void lrcsi_solid_shells(const lrcs_prepared *prepared, uint32_t *shell, unsigned char *closed);
+   opposite senses, and none of its facets coincides with another one. Returned in the arrays of
+   `shells`: of each facet the first facet of its shell, or LRCS_NONE if that is not closed; and
+   self[], all 0, to be set by lrcsi_intersection_make. */
+void lrcsi_solid_shells(const lrcs_prepared *prepared, const lrcsi_shells *shells);
 
 /* Finds the solid shells. A shell is solid if it is closed, no facet of it meets the inside or a
    side of another one of it (shells->self), and it encloses a positive volume. By the second
    condition it meets itself at most in isolated points (coinciding corners, sides that cross): if
    two parts of the surface met along a line, they would do so inside a facet or along overlapping
    sides, of which one ends inside the other. Near an isolated point each of the two parts stays on
-   one side of the other, because it is still connected when the point is removed; so it can be
-   moved away from it. The result is an embedded surface: its winding number is 0 outside and 1
-   inside (Jordan-Brouwer).
+   one side of the other, because a disc without that point is still connected; so it can be moved
+   away from it. The result is an embedded surface: its winding number is 0 outside and 1 inside
+   (Jordan-Brouwer).
 
    On a line to the laser the winding number becomes larger by 1 where the line meets a back of the
-   shell, smaller by 1 where it meets a front, and 0 in the end. It is never negative, so after every
-   back comes a front: the backs of a solid shell are never seen, and hide nothing that its fronts do
-   not hide. Its facets get LRCSI_REDUNDANT_IN_SOLID, unless the shell represents a curved surface,
-   whose visibility may differ from that of its facets. Sets prepared->solid and solid_shells.
-   Given: shells (lrcsi_solid_shells, lrcsi_intersection_make). Scratch is taken from work. Status:
-   LRCS_OK; LRCS_E_MEMORY. */
+   shell, smaller by 1 where it meets a front, and is 0 in the end. Since it is never negative, it
+   is at least 1 after a back, and a front follows: the backs of a solid shell are never seen, and
+   hide nothing that its fronts do not hide. Its facets get LRCSI_REDUNDANT_IN_SOLID, unless any of
+   them belongs to a curved shape, whose visibility may differ from that of its facets. Sets
+   prepared->solid and solid_shells. Given: shells (lrcsi_solid_shells, lrcsi_intersection_make).
+   Scratch is taken from work. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_find(lrcs_prepared *prepared, const lrcsi_shells *shells, lrcs_work *work);
 
 /* 1 if the scene is convex by construction: all live facets belong to one part that the library

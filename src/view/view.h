@@ -26,11 +26,12 @@ typedef struct lrcsi_incidence {
 } lrcsi_incidence;
 
 /* Which facets that face away from the laser hide others and can be visible: those whose
-   lrcsi_redundant is less. */
+   lrcsi_redundant is less than this. */
 enum lrcsi_backs_cast {
     LRCSI_BACKS_NONE = LRCSI_NOT_REDUNDANT,
     LRCSI_BACKS_OPEN = LRCSI_REDUNDANT_IN_SOLID,  /* those that are not in solid shells */
-    LRCSI_BACKS_ALL = LRCSI_REDUNDANT_FROM_BEHIND /* also those: a search whose result is known */
+    LRCSI_BACKS_ALL = LRCSI_REDUNDANT_FROM_BEHIND /* on request: also those in solid shells, which
+                                                     are proved not to be seen */
 };
 
 /* What back sides do in a view. */
@@ -112,11 +113,13 @@ static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
     return view->cast.facet[facet] != 0;
 }
 
-/* 1 if a facet, if visible, reflects towards the laser; else 0. */
+/* 1 if a facet, if visible, reflects towards the laser; else 0, also for a back that cannot be
+   visible. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs.reflect &&
-                                       lrcsi_prepared_material(view->prepared, facet)->two_sided);
+    return view->facing[facet] > 0 ||
+           (view->facing[facet] < 0 && view->backs.reflect && lrcsi_view_casts(view, facet) &&
+            lrcsi_prepared_material(view->prepared, facet)->two_sided);
 }
 
 /* The incidence of a facet that is not skipped. */

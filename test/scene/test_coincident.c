@@ -293,8 +293,8 @@ static void twins_are_seen_as_the_side_that_faces_the_laser(void **state)
     assert_true(hidden > 1000);
 }
 
-/* The scene prepared, the backs of its solid shells cast as others do. With every facet stored twice
-   no shell is solid. */
+/* The scene prepared, but the backs of its solid shells cast as others do: with every facet stored
+   twice no shell is solid. */
 static lrcs_prepared prepare_with_backs(lrcs_work *work)
 {
     lrcs_prepared p = *scene_prepare(&scene, work);

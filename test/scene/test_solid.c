@@ -2,6 +2,7 @@
 /* What the planner proves of a shape, and what it must refuse to prove. */
 #include "scene/solid.h"
 
+#include "recipe.h"
 #include "scenes.h"
 
 static test_scene scene;
@@ -99,7 +100,7 @@ static void draw_all_backs(lrcs_prepared *prepared)
 {
     prepared->solid = 0;
     prepared->convex = 0;
-    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+    for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
         if (prepared->redundant[f] == LRCSI_REDUNDANT_IN_SOLID) {
             prepared->redundant[f] = LRCSI_NOT_REDUNDANT;
         }
@@ -251,6 +252,55 @@ static void backs_of_solid_shells_make_no_difference(void **state)
     assert_true(mixed > 50);
 }
 
+/* A two-sided box beside a two-sided open cylinder: what rounding the cylinder may do to the backs
+   of the box is no part of the bound. */
+static void backs_of_solid_shells_add_nothing_to_bounds(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part[2];
+    lrcs_recipe_material material[2];
+    lrcs_recipe recipe = recipe_bright_and_black(&(lrcs_brdf){0.1, 0.2, 0.4, 0.5}, part, material);
+    material[0].two_sided = 1;
+    recipe.material_count = 1;
+    part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {0.5, 0.5, 0.25}};
+    part[0].place.translate[0] = 0.5;
+    part[0].place.translate[2] = 1;
+    part[1].shape = (lrcs_shape){
+        .kind = LRCS_SHAPE_CYLINDER, .parts = LRCS_SHAPE_WALL, .radius = 0.7, .length = 0.5};
+    part[1].place.translate[2] = 0.6;
+    part[1].material = part[0].material;
+    part[1].material_index = 0;
+    lrcs_scene built;
+    const lrcs_build_options build = lrcs_build_options_default();
+    lrcs_prepared marked = *recipe_prepare(&recipe, NULL, &build, &built, &work);
+    lrcs_prepared all = marked;
+    static unsigned char redundant[4096];
+    assert_true(built.facet_count <= sizeof redundant);
+    memcpy(redundant, marked.redundant, built.facet_count);
+    all.redundant = redundant;
+    draw_all_backs(&all);
+    const lrcs_run_options options = {.tolerance = 1e-2, .method = LRCS_METHOD_EXACT};
+    uint64_t seed = 3;
+    int smaller = 0;
+    for (int n = 0; n < 60; n++) {
+        lrcs_pose pose;
+        lrcs_result result[2];
+        const double d[3] = {random_unit(&seed) - 0.5, random_unit(&seed) - 0.5,
+                             random_unit(&seed) - 0.5};
+        assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(lrcs_sigma_run(i == 0 ? &marked : &all, &pose, &options, &work,
+                                            &result[i], NULL, NULL),
+                             LRCS_OK);
+        }
+        check_most(fabs(result[0].sigma_m2 - result[1].sigma_m2),
+                   result[0].bound_m2 + result[1].bound_m2);
+        check_most(result[0].bound_m2, result[1].bound_m2 * (1 + 1e-9));
+        smaller += result[0].bound_m2 < 0.9 * result[1].bound_m2;
+    }
+    assert_true(smaller > 10);
+}
+
 static void convex_meshes_are_proved_convex(void **state)
 {
     (void)state;
@@ -325,6 +375,7 @@ int main(void)
         cmocka_unit_test(facets_seen_from_behind_are_never_in_a_solid),
         cmocka_unit_test(solid_shells_are_found_among_others),
         cmocka_unit_test(backs_of_solid_shells_make_no_difference),
+        cmocka_unit_test(backs_of_solid_shells_add_nothing_to_bounds),
         cmocka_unit_test(convex_meshes_are_proved_convex),
         cmocka_unit_test(shapes_with_a_hollow_are_not_proved_convex),
     };

@@ -16,8 +16,8 @@
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
 
-/* The least lrcsi_redundant of facets that are not visible, others being seen instead. Given: the
-   side that faces the laser, 1, or -1 for the back. */
+/* Facets with this lrcsi_redundant or a larger one are not visible: others are seen instead. Given:
+   the side that faces the laser, 1, or -1 for the back. */
 static inline int least_redundant(const lrcsi_total_run *run, int side)
 {
     return side > 0 ? LRCSI_REDUNDANT : run->view->backs.cast;
@@ -30,8 +30,8 @@ static inline int side_may_be_visible(const lrcsi_total_run *run, uint32_t facet
                                : run->view->prepared->redundant[facet] < least_redundant(run, side);
 }
 
-/* Are there facets that are not visible, or shapes that are not added facet by facet? */
-static inline int are_divided(const lrcsi_total_run *run, int side)
+/* May some facets not be visible, or not be added in packets? */
+static inline int needs_dividing(const lrcsi_total_run *run, int side)
 {
     return run->areas->visible || run->clear ||
            run->view->prepared->batches.redundant >= least_redundant(run, side);
@@ -221,7 +221,7 @@ static void add_selected(lrcsi_total_run *run, total_batch *batch, uint32_t star
         list[count] = start + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (are_divided(run, side)) {
+    if (needs_dividing(run, side)) {
         single_facets single;
         uint32_t packed = divide_facets(run, side, list, count, &single);
         for (uint32_t k = 0; k < single.clear; k++) {

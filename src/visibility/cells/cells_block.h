@@ -51,9 +51,8 @@ typedef struct lrcsi_blocks {
     lrcsi_cells_frame frame;     /* its vertices, relative to the middle of the current block */
     unsigned char *coplanar;     /* facet: lrcsi_cells_has_coplanar */
     const unsigned char *wanted; /* facet: 1 if its area is wanted */
-    /* Facet: in all blocks that have ended: */
-    lrcsi_cell_area *area;
-    unsigned char *finding; /* bits of enum lrcsi_finding */
+    lrcsi_cell_area *area;       /* facet: its areas in all blocks that have ended */
+    unsigned char *finding;      /* facet: what was found in these, bits of enum lrcsi_finding */
     /* Of the current block, whose facets have records from 1 on: */
     lrcsi_division division;
     unsigned char *record_finding; /* record: with what was found in the blocks before */

@@ -33,11 +33,11 @@
 
    (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
 
-   (5) Let K cover the cell once and be nearest at P, and let P be in a part of the cell after a cut.
-   What (1) states of the points of the cell is then true of those of the part. It excludes strips at
-   the border of the cell. These are charged already to all facets of the list, unless the cell is
-   thin. So in a cell that is not thin, K and P serve for the part as well; (2) and (3) are applied
-   to them with the segments that the part has.
+   (5) Let K cover the cell once and be nearest at P, and let P be in a part of the cell after a
+   cut. What (1) states of the points of the cell is then true of those of the part. It excludes
+   strips at the border of the cell. These are charged already to all facets of the list, unless the
+   cell is thin. So in a cell that is not thin, K and P serve for the part as well; (2) and (3) are
+   applied to them with the segments that the part has.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both

@@ -12,8 +12,8 @@ void lrcsi_cells_filter_segments(lrcsi_division *d, lrcsi_cell *cell, const lrcs
 
 /* Divides a cell along the line of a segment, which is removed from the list, and its strip
    charged; a cell with many corners is halved instead. The left part is processed next, the right
-   part waits. If a sample is given, the left part is the one that it is in, and keeps it. 0 if there
-   is no room. */
+   part waits. If a sample is given, the left part is the one that it is in, and keeps it. 0 if
+   there is no room. */
 int lrcsi_cells_divide(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                        const lrcsi_cells_segment *along, const double sample[2]);
 

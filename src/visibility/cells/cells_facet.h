@@ -25,7 +25,7 @@ typedef struct lrcsi_cells_facet {
     uint32_t neighbour[3];  /* the record of the facet that continues it across each side; 0: that
                                facet is not in the block; LRCS_NONE: there is none */
     uint32_t facet;         /* its number in the scene */
-    uint32_t owner;         /* the number by which segments name it */
+    uint32_t owner;         /* the number by which segments name it (lrcsi_cells_segment) */
     int sliver;             /* its sides are those of a band that contains it */
     int unknown_contact;    /* one of its contacts could not be computed */
 } lrcsi_cells_facet;
@@ -38,8 +38,9 @@ typedef struct lrcsi_cells_segment {
     double err;        /* error of its ends, and of their distances from a line */
     double line_err;   /* error of its line within the block, in addition to 16 u b */
     double z_err;      /* error of z of its ends */
-    uint32_t owner[2]; /* facets whose edge or contact it is (lrcsi_division_owner); the second
-                          may be LRCS_NONE */
+    uint32_t owner[2]; /* facets whose edge or contact it is: in a block the numbers of their
+                          records, 0 for those that are not in it; for a single facet their numbers
+                          in the scene (lrcsi_division_owner). The second may be LRCS_NONE */
     uint32_t edge;     /* if it is an edge of more than two facets; else LRCS_NONE */
     int contact;       /* the lrcsi_contact_kind of a contact; 0: an edge */
 } lrcsi_cells_segment;
@@ -94,9 +95,9 @@ int lrcsi_cells_has_coplanar(const lrcsi_view *view, uint32_t facet);
    edge is an event of the view (visibility/index/event.h). */
 uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k);
 
-/* The same for cells; coplanar: lrcsi_cells_has_coplanar of each facet. All edges of facets that overlap others in their plane, and edges along which
+/* The same for cells: all edges of facets that overlap others in their plane, and edges along which
    others meet one of the two facets, count as events too, so that no component continues across
-   them. */
+   them. Given: lrcsi_cells_has_coplanar of each facet. */
 uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *coplanar,
                                uint32_t facet, int k);
 

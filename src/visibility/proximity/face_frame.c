@@ -68,7 +68,7 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t index, lrcsi_face_f
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         if (lrcsi_face_margin_applies(view, f)) {
             face->facet = f;
-            if (p->skip[f] || p->redundant[f] != LRCSI_NOT_REDUNDANT ||
+            if (p->skip[f] || p->redundant[f] >= LRCSI_REDUNDANT_FROM_BEHIND ||
                 !open_parts_are_ordered(bands, f)) {
                 return 0;
             }
