@@ -113,13 +113,15 @@ static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
     return view->cast.facet[facet] != 0;
 }
 
-/* 1 if a facet, if visible, reflects towards the laser; else 0, also for a back that cannot be
-   visible. */
+/* 1 if a facet, if visible, reflects towards the laser; else 0, also for the back of a facet of a
+   solid shell that does not cast. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
+    const lrcs_prepared *p = view->prepared;
     return view->facing[facet] > 0 ||
-           (view->facing[facet] < 0 && view->backs.reflect && lrcsi_view_casts(view, facet) &&
-            lrcsi_prepared_material(view->prepared, facet)->two_sided);
+           (view->facing[facet] < 0 && view->backs.reflect &&
+            (p->redundant[facet] != LRCSI_REDUNDANT_IN_SOLID || lrcsi_view_casts(view, facet)) &&
+            lrcsi_prepared_material(p, facet)->two_sided);
 }
 
 /* The incidence of a facet that is not skipped. */
