@@ -51,7 +51,7 @@ static int tds_read_colour(lrcsi_tds_walk *walk, lrcsi_tds_chunk diffuse, lrcs_s
             continue;
         }
         int status = lrcsi_tds_check(walk, &chunk, 3, is_float ? 4 : 1, "material colour");
-        unsigned char rgb[3];
+        unsigned char rgb[3] = {0};
         if (status == LRCS_OK && is_float) {
             status = tds_float_colour(walk, chunk.at, rgb);
         } else if (status == LRCS_OK) {
