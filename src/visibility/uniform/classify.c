@@ -250,8 +250,15 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 static uint32_t count_casters(const lrcsi_view *view)
 {
     uint32_t count = 0;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        count += lrcsi_view_casts(view, f) != 0;
+    for (uint32_t m = 0; m < view->prepared->meshlets.count; m++) {
+        const signed char *cast = view->cast.facet + (size_t)m * LRCSI_MESHLET_FACETS;
+        if (view->cast.meshlet[m] != LRCSI_MESHLET_MIXED) {
+            count += cast[0] != 0 ? LRCSI_MESHLET_FACETS : 0;
+            continue;
+        }
+        for (uint32_t i = 0; i < LRCSI_MESHLET_FACETS; i++) {
+            count += cast[i] != 0;
+        }
     }
     return count;
 }
