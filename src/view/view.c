@@ -398,8 +398,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 {
     lrcsi_view v;
     size_t mark = work->used;
-    const lrcsi_view_backs backs = {prepared->solid ? LRCSI_BACKS_NONE : LRCSI_BACKS_OPEN,
-                                    !prepared->solid};
+    const lrcsi_view_backs backs = {lrcsi_backs_needed(prepared), !prepared->solid};
     int status = lrcsi_view_face(prepared, pose, backs, work, &v);
     if (status == LRCS_OK) {
         status = lrcsi_view_project(work, &v);

@@ -34,6 +34,12 @@ enum lrcsi_backs_cast {
                                                      are proved not to be seen */
 };
 
+/* Those that may be seen. */
+static inline int lrcsi_backs_needed(const lrcs_prepared *prepared)
+{
+    return prepared->solid ? LRCSI_BACKS_NONE : LRCSI_BACKS_OPEN;
+}
+
 /* What back sides do in a view. */
 typedef struct lrcsi_view_backs {
     int cast;    /* a lrcsi_backs_cast */

@@ -4,6 +4,7 @@
 
 #include <lrcs/polygon.h>
 
+#include "backs.h"
 #include "scenes.h"
 #include "visibility/uniform/classify.h"
 
@@ -293,20 +294,6 @@ static void twins_are_seen_as_the_side_that_faces_the_laser(void **state)
     assert_true(hidden > 1000);
 }
 
-/* The scene prepared, but the backs of its solid shells cast as others do: with every facet stored
-   twice no shell is solid. */
-static lrcs_prepared prepare_with_backs(lrcs_work *work)
-{
-    lrcs_prepared p = *scene_prepare(&scene, work);
-    p.solid = 0;
-    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (p.redundant[f] == LRCSI_REDUNDANT_IN_SOLID) {
-            p.redundant[f] = LRCSI_NOT_REDUNDANT;
-        }
-    }
-    return p;
-}
-
 /* Steps are what exact visibility spends its time on. Each panel has one contour, not three. */
 static void twins_cost_what_one_of_them_costs(void **state)
 {
@@ -328,7 +315,8 @@ static void twins_cost_what_one_of_them_costs(void **state)
             if (doubled) {
                 store_twice(&again, 1);
             }
-            const lrcs_prepared p = prepare_with_backs(&work);
+            lrcs_prepared p = *scene_prepare(&scene, &work);
+            scene_draw_all_backs(&p); /* stored twice, no shell is solid */
             steps[doubled] = scene_pose(&scene, &p, &work, d, LRCS_METHOD_EXACT, 0).steps;
             assert_int_equal(lrcsi_view_make(&p, &pose, &work, &view), LRCS_OK);
             assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);

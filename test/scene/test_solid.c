@@ -2,6 +2,7 @@
 /* What the planner proves of a shape, and what it must refuse to prove. */
 #include "scene/solid.h"
 
+#include "backs.h"
 #include "recipe.h"
 #include "scenes.h"
 
@@ -95,16 +96,11 @@ static void piece_that_passes_through_itself_is_not_proved_solid(void **state)
     assert_true(is_solid());
 }
 
-/* Draws the backs of solid shells too. */
+/* The backs of solid shells are drawn too, and nothing is known to be convex. */
 static void draw_all_backs(lrcs_prepared *prepared)
 {
-    prepared->solid = 0;
+    scene_draw_all_backs(prepared);
     prepared->convex = 0;
-    for (uint32_t f = 0; f < prepared->scene->facet_count; f++) {
-        if (prepared->redundant[f] == LRCSI_REDUNDANT_IN_SOLID) {
-            prepared->redundant[f] = LRCSI_NOT_REDUNDANT;
-        }
-    }
 }
 
 /* Where winding is negative, a back side is seen: what the proof must never allow. */

@@ -278,11 +278,11 @@ static void process(lrcsi_cell *cell, uint64_t *random)
     if (sample.outcome == LRCSI_SAMPLE_FOUND) {
         int covers_cell =
             kept ||
-            lrcsi_cells_surface_find(&blocks, cell, &s, &sample, LRCSI_SURFACE_LISTED, &surface) ||
-            lrcsi_cells_surface_find(&blocks, cell, &s, &sample, LRCSI_SURFACE_IN_CELL, &surface);
+            lrcsi_cells_surface_find(d, cell, &s, &sample, LRCSI_SURFACE_LISTED, &surface) ||
+            lrcsi_cells_surface_find(d, cell, &s, &sample, LRCSI_SURFACE_IN_CELL, &surface);
         component_covers = covers_cell;
         covered += covers_cell != 0;
-        if (!covers_cell && lrcsi_cells_surface_occluder(&blocks, cell, &s, &sample, &surface)) {
+        if (!covers_cell && lrcsi_cells_surface_occluder(d, cell, &s, &sample, &surface)) {
             covers_cell = 1;
             occluded++;
         }

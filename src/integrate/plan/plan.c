@@ -28,9 +28,7 @@ lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options
 {
     int requested = has_effect(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
                     (p->two_sided && has_effect(options->with, LRCS_EFFECT_TWO_SIDED));
-    int cast = requested && !shadows_omitted(options) ? LRCSI_BACKS_ALL
-               : p->solid                             ? LRCSI_BACKS_NONE
-                                                      : LRCSI_BACKS_OPEN;
+    int cast = requested && !shadows_omitted(options) ? LRCSI_BACKS_ALL : lrcsi_backs_needed(p);
     cast = has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS) ? LRCSI_BACKS_NONE : cast;
     return (lrcsi_view_backs){cast, cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED)};
 }

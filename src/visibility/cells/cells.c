@@ -235,20 +235,20 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
        segments. */
     const lrcsi_cells_segment *cut = NULL;
     int found = sample->outcome == LRCSI_SAMPLE_FOUND;
-    int covers = kept || (found && lrcsi_cells_surface_find(b, cell, &s, sample,
+    int covers = kept || (found && lrcsi_cells_surface_find(d, cell, &s, sample,
                                                             LRCSI_SURFACE_LISTED, surface));
     if (found && !covers) {
         cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
     if (found && !covers && !cut) {
-        covers = lrcsi_cells_surface_find(b, cell, &s, sample, LRCSI_SURFACE_IN_CELL, surface);
+        covers = lrcsi_cells_surface_find(d, cell, &s, sample, LRCSI_SURFACE_IN_CELL, surface);
         cut = covers ? NULL : choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
     /* 3. Remove what is behind the component, if it covers the cell, or else behind a single facet
        that covers it. The component alone is visible if no contact of it crosses the cell. */
     double thin = 0; /* the error of the area of any facet, if the cell is thin */
-    if (covers || (found && lrcsi_cells_surface_occluder(b, cell, &s, sample, surface))) {
+    if (covers || (found && lrcsi_cells_surface_occluder(d, cell, &s, sample, surface))) {
         for (uint32_t i = 0; i < surface->border_count; i++) {
             lrcsi_cells_charge_border(d, cell, &s, &surface->border[i]);
         }

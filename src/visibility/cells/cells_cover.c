@@ -243,11 +243,10 @@ static int locate_side(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                : place;
 }
 
-int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
+int lrcsi_cells_surface_find(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                              int extent, lrcsi_cells_surface *surface)
 {
-    const lrcsi_division *d = &b->division;
     uint32_t count = 1;
     int covers = 1;
     lrcsi_marks_clear(&surface->foreground, d->record_room);
@@ -304,11 +303,10 @@ void lrcsi_cells_surface_keep(const lrcsi_division *d, const lrcsi_cell *cell,
     (void)mark_adjoining(d, cell, surface);
 }
 
-int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
+int lrcsi_cells_surface_occluder(const lrcsi_division *d, const lrcsi_cell *cell,
                                  const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                                  lrcsi_cells_surface *surface)
 {
-    const lrcsi_division *d = &b->division;
     uint32_t occluder = LRCS_NONE;
     double best_z = -HUGE_VAL;
     for (uint32_t i = 0; i < sample->hit_count; i++) {

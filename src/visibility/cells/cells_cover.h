@@ -74,7 +74,7 @@ enum lrcsi_surface_extent {
 /* Finds the component around the facet nearest at a sample. Returns 1 if it covers the cell once
    and no event edge of it is left in the list; its edges at the border of the cell and the facets
    that it meets at a contact in the cell are then found too. extent: a lrcsi_surface_extent. */
-int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
+int lrcsi_cells_surface_find(const lrcsi_division *d, const lrcsi_cell *cell,
                              const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                              int extent, lrcsi_cells_surface *surface);
 
@@ -86,7 +86,7 @@ void lrcsi_cells_surface_keep(const lrcsi_division *d, const lrcsi_cell *cell,
 /* Given: a component that does not cover the cell. Of the facets that each cover the cell alone,
    takes the one nearest at the sample as the surface. Returns 0 if there is none. The facets of the
    component stay in the foreground, even those behind that facet. */
-int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
+int lrcsi_cells_surface_occluder(const lrcsi_division *d, const lrcsi_cell *cell,
                                  const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                                  lrcsi_cells_surface *surface);
 
