@@ -7,16 +7,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells/cells.h"
 #include "visibility/uniform/query.h"
 
-/* Undecided facets are processed together (visibility/cells/cells.h) if there are at least
-   MIN_UNDECIDED of them, and at least one in MIN_FRACTION facets: to process them together, all
-   facets are sorted into blocks, which costs more than processing a few facets one by one. Both
-   are heuristic: where the two take about the same time. */
-#define MIN_UNDECIDED 192u
-#define MIN_FRACTION  32u
+/* In scenes with fewer facets, undecided facets are processed one by one: it saves the memory for
+   processing them together. */
+#define MIN_FACETS 192u
+/* Facets are processed together (visibility/cells/cells.h) if processing them one by one would take
+   more pairs of a facet and an event (one_by_one_is_slow) than this for each facet that can hide
+   others: all of these are sorted into blocks then. Heuristic: where the two take about the same
+   time, measured on spacecraft models, satellites and the demo. */
+#define PAIRS_PER_CASTER 4096.0
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
@@ -81,7 +84,32 @@ lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o)
    search is requested: it saves their memory. */
 static int can_process_together(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= MIN_UNDECIDED && !(prepared->convex && prepared->solid);
+    return prepared->scene->facet_count >= MIN_FACETS && !(prepared->convex && prepared->solid);
+}
+
+/* Would it take long to process the undecided facets one by one? Each is cut at most along the
+   events near it, and each of its cells is compared at most with the facets near it: the work is
+   counted as the product of the two, which the lists of buckets give approximately. Counting it
+   takes one step for each row of buckets. */
+static int one_by_one_is_slow(const lrcsi_occlusion *o)
+{
+    const lrcsi_classification *c = o->classification;
+    const uint32_t count = c->view->prepared->scene->facet_count;
+    const double most = PAIRS_PER_CASTER * c->casters;
+    double pairs = 0;
+    for (uint32_t f = 0; pairs <= most && (f = lrcsi_marks_next(c->undecided, f, count, 1)) < count;
+         f++) {
+        const lrcsi_view_box *box = lrcsi_boxes_facet(&o->facets.boxes, f);
+        const lrcsi_grid_rect facets = lrcsi_grid_buckets(&o->facets, box);
+        const lrcsi_grid_rect events = lrcsi_grid_buckets(&c->search.grid, box);
+        const uint32_t rows = (uint32_t)(facets.y1 - facets.y0) + (uint32_t)(events.y1 - events.y0);
+        if (!lrcsi_meter_take(o->meter, rows)) {
+            return 0;
+        }
+        pairs += lrcsi_min(c->casters, lrcsi_grid_listed(&o->facets, facets)) *
+                 lrcsi_min(c->events.count, lrcsi_grid_listed(&c->search.grid, events));
+    }
+    return pairs > most;
 }
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
@@ -123,7 +151,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     return status;
 }
 
-/* 1. Queries of uniform facets. 2. Undecided facets together, if there are many. 3. One by one,
+/* 1. Queries of uniform facets. 2. Undecided facets together, if that is likely to be faster. 3. One by one,
    those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
    used here, or the areas of all facets. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
@@ -151,8 +179,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
             }
         }
     }
-    if (status == LRCS_OK && left >= MIN_UNDECIDED && left >= count / MIN_FRACTION &&
-        can_process_together(p)) {
+    if (status == LRCS_OK && can_process_together(p) && one_by_one_is_slow(&o)) {
         lrcsi_cells_areas(classification, meter, progress, work, o.answer,
                           classification->undecided, found, visible, moment);
         for (uint32_t f = 0; f < count; f++) {

@@ -7,7 +7,8 @@
 
    How far the error due to a part falls is forecast by a factor for each halving, one for straight
    walls and one for round bodies. Most poses take two runs, the second of which meets the
-   tolerance; if it does not, the next forecast starts from its errors. */
+   tolerance, or three if the tolerance is far below the error of the first; if the last does not
+   meet it, the next forecast starts from its errors. */
 #include "host/run/refine.h"
 
 #include <math.h>
@@ -21,8 +22,14 @@
    it falls less, the part is halved again; if it falls more, there are more facets than needed. */
 #define ROUND_FACTOR    0.30
 #define STRAIGHT_FACTOR 0.48
+/* Of a straight wall that has been halved before: measured as 0.50 to 0.55. */
+#define STRAIGHT_FACTOR_LATER 0.50
 /* Divisions are chosen for this fraction of what the tolerance leaves for all parts together. */
 #define TOLERANCE_FRACTION 0.8
+/* If the error exceeds what is allowed by more than this factor, it is reduced in two runs, the
+   first of which is aimed at the geometric mean of the two: it takes a tenth of the time of the
+   second, and the forecast from its errors is more accurate. */
+#define ONE_RUN_FACTOR 1e4
 /* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
 #define TOLERANCE_MIN 1e-12
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
@@ -148,16 +155,18 @@ typedef struct part_choice {
    between 0.32 and 0.54. Few poses need a third run, and a smaller factor for round bodies saves
    no more time, because more poses then do. */
 static void choices_start(const lrcs_scene *scene, const lrcs_result *result,
-                          const double *part_error_m2, part_choice *choice)
+                          const double *part_error_m2, const unsigned char *from,
+                          part_choice *choice)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         double error = part_error_m2 ? part_error_m2[i] : 1.0;
         int is_round = lrcsi_shape_is_round(part->kind);
+        double straight = from[i] > 0 ? STRAIGHT_FACTOR_LATER : STRAIGHT_FACTOR;
         choice[i] = (part_choice){.error = part->bounds.reach > 0.0 ? error : 0.0,
                                   .facets = part->facet_count,
-                                  .factor = is_round ? ROUND_FACTOR : STRAIGHT_FACTOR,
+                                  .factor = is_round ? ROUND_FACTOR : straight,
                                   .growth = is_round ? 2.0 : sqrt(2.0),
                                   .excess = is_round ? ROUND_EXCESS : 1.0,
                                   .fixed = !(part->bounds.reach > 0.0)};
@@ -245,19 +254,22 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
 {
     double left = error_left(options, result);
     double allowed = TOLERANCE_FRACTION * left;
+    if (result->budget.tessellation_m2 > ONE_RUN_FACTOR * allowed) {
+        allowed = sqrt(allowed * result->budget.tessellation_m2);
+    }
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
     int reachable = 1;
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
     if (choice && allowed > 0.0) {
-        choices_start(scene, result, part_error_m2, choice);
+        choices_start(scene, result, part_error_m2, from, choice);
         for (uint32_t i = 0; i < levels->parts; i++) {
             reachable &= choice[i].error <= left ||
                          part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
         }
         double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
-        choices_start(scene, result, part_error_m2, choice);
+        choices_start(scene, result, part_error_m2, from, choice);
         if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
             SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);

@@ -272,8 +272,9 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
     size_t room = lrcsi_meshlets_room(count);
-    lrcsi_classification c = {.view = view, .search = {.view = view}};
-    c.search.grid = lrcsi_grid_empty(view, count_casters(view));
+    lrcsi_classification c = {
+        .view = view, .casters = count_casters(view), .search = {.view = view}};
+    c.search.grid = lrcsi_grid_empty(view, c.casters);
     c.undecided = lrcsi_work_take_zero(work, count, 1);
     c.search.component = c.component = lrcsi_work_take(work, room, sizeof *c.component);
     int status = c.undecided && c.component && lrcsi_facet_signs_take(count, work, &c.joinable)

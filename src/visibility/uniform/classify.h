@@ -14,6 +14,7 @@
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;
+    uint32_t casters;          /* the number of facets that can hide others */
     lrcsi_events events;       /* nearest first, by their boxes */
     lrcsi_event_search search; /* with the boxes of undecided facets, and of others that were
                                   tested */
