@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* How time and memory grow: with facets on the generated satellite, with pixels, with layers one
    above the other, in the worst cases, where every facet overlaps every other, and in scenes of
-   which most is hidden. An exponent is the slope of a least-squares line through the logarithms. It
-   decides which series are measured; usage: scaling [--quick | --tiny] */
+   which most is hidden. An exponent is the slope of a least-squares line through the logarithms.
+   "Pairs" is that of the number of pairs of facets whose projections overlap: where it is 2, a
+   constant fraction of all pairs do. This file decides which series are measured; usage:
+   scaling [--quick | --tiny] */
 #include <lrcs/host.h>
 
 #include <math.h>
@@ -13,6 +15,8 @@
 #include "bench/scenes.h"
 
 enum { POINTS = 8, POSES = 3 };
+/* Pairs are counted in scenes with at most this many facets. */
+#define COUNTED_FACETS 50000u
 
 /* What is measured of each scene. */
 enum scaling_kind { KIND_PREPARE, KIND_FACET, KIND_ZBUFFER, KIND_EXACT, KINDS };
@@ -21,6 +25,8 @@ static const char *const kind_names[KINDS] = {"prepare", "facet", "zbuffer", "ex
 /* One scene of a series, and the answer of its last pose. */
 typedef struct scaling_point {
     double size, ms, bytes;
+    double
+        pairs; /* of facets whose projections overlap in the last pose; 0: none, or not counted */
     lrcs_result result;
 } scaling_point;
 
@@ -62,6 +68,73 @@ static scaling_fit fit_make(const double *size, const double *value, int count)
     }
     fit.last = log(value[count - 1] / value[count - 2]) / log(size[count - 1] / size[count - 2]);
     return fit;
+}
+
+/* ---- pairs of facets ---- */
+
+/* A facet in the view plane, with its range of x. */
+typedef struct projected_facet {
+    double low, high;
+    double corner[3][2];
+} projected_facet;
+
+static int facet_compare(const void *a, const void *b)
+{
+    const projected_facet *f = a;
+    const projected_facet *g = b;
+    return (f->low > g->low) - (f->low < g->low);
+}
+
+/* Does the line of a side of one triangle separate it from the other? Triangles that share a side
+   or only touch are separated too. */
+static int side_separates(const projected_facet *f, const projected_facet *g)
+{
+    for (int k = 0; k < 3; k++) {
+        const double *from = f->corner[k];
+        const double *to = f->corner[(k + 1) % 3];
+        const double *apex = f->corner[(k + 2) % 3];
+        double side[2] = {to[0] - from[0], to[1] - from[1]};
+        double height = side[0] * (apex[1] - from[1]) - side[1] * (apex[0] - from[0]);
+        double nearest = -INFINITY; /* of g to f, on f's side of the line */
+        for (int i = 0; i < 3; i++) {
+            const double *x = g->corner[i];
+            double left = side[0] * (x[1] - from[1]) - side[1] * (x[0] - from[0]);
+            nearest = fmax(nearest, left * copysign(1, height));
+        }
+        if (nearest <= 1e-9 * fabs(height)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The number of pairs of facets whose projections overlap. */
+static double pairs_count(const lrcs_scene *scene, const lrcs_pose *pose)
+{
+    uint32_t count = scene->facet_count;
+    projected_facet *facet = bench_memory(count * sizeof *facet);
+    double pairs = 0;
+    for (uint32_t f = 0; f < count; f++) {
+        facet[f].low = INFINITY;
+        facet[f].high = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const double *v = scene->vertex[scene->facet[f].corner[k]].x;
+            for (int r = 0; r < 2; r++) {
+                const double *row = pose->R[r];
+                facet[f].corner[k][r] = row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+            }
+            facet[f].low = fmin(facet[f].low, facet[f].corner[k][0]);
+            facet[f].high = fmax(facet[f].high, facet[f].corner[k][0]);
+        }
+    }
+    qsort(facet, count, sizeof *facet, facet_compare);
+    for (uint32_t f = 0; f < count; f++) {
+        for (uint32_t g = f + 1; g < count && facet[g].low < facet[f].high; g++) {
+            pairs += !side_separates(&facet[f], &facet[g]) && !side_separates(&facet[g], &facet[f]);
+        }
+    }
+    free(facet);
+    return pairs;
 }
 
 /* ---- measuring ---- */
@@ -155,6 +228,11 @@ static void series_add(scaling_series *series, const lrcs_scene *scene, double s
         if (kind != KIND_PREPARE) {
             method_measure(series, prepared, method[kind], &point);
         }
+        point.pairs = 0;
+        if (kind == KIND_EXACT && scene->facet_count <= COUNTED_FACETS) {
+            lrcs_pose pose = pose_of(series, POSES - 1);
+            point.pairs = pairs_count(scene, &pose);
+        }
         series->point[kind][series->count[kind]++] = point;
     }
     free(bytes);
@@ -165,9 +243,12 @@ static void series_add(scaling_series *series, const lrcs_scene *scene, double s
 static void fit_print(const char *what, const char *grows, const char *kind,
                       const scaling_point *point, int count)
 {
-    double size[POINTS];
-    double ms[POINTS];
-    double bytes[POINTS];
+    double size[POINTS] = {0};
+    double ms[POINTS] = {0};
+    double bytes[POINTS] = {0};
+    double counted[POINTS]; /* the sizes of which pairs were counted */
+    double pairs[POINTS];
+    int counts = 0;
     if (count < 2) {
         return;
     }
@@ -175,13 +256,22 @@ static void fit_print(const char *what, const char *grows, const char *kind,
         size[i] = point[i].size;
         ms[i] = point[i].ms;
         bytes[i] = point[i].bytes;
+        if (point[i].pairs > 0) {
+            counted[counts] = point[i].size;
+            pairs[counts++] = point[i].pairs;
+        }
     }
     scaling_fit time = fit_make(size, ms, count);
     scaling_fit memory = fit_make(size, bytes, count);
     printf("| %-18s | %-9s | %-8s | %8.0f .. %-8.0f | %9.4g .. %-9.4g | %8.2f | %6.2f | %9.2f | "
-           "%6.2f |\n",
+           "%6.2f |",
            what, grows, kind, size[0], size[count - 1], ms[0], ms[count - 1], time.exponent,
            time.off, time.last, memory.exponent);
+    if (counts > 1) {
+        printf(" %5.2f |\n", fit_make(counted, pairs, counts).exponent);
+    } else {
+        printf(" %5s |\n", "");
+    }
     fflush(stdout);
 }
 
@@ -222,9 +312,9 @@ static const uint32_t resolutions[EXTENTS] = {64, 1024, 1024};
 
 static void head_print(void)
 {
-    printf("\n| %-18s | %-9s | %-8s | %-20s | %-22s | %8s | %6s | %9s | %6s |\n", "scene", "grows",
-           "what", "sizes", "ms", "exponent", "off by", "last step", "memory");
-    printf("|:---|:---|:---|:---|:---|---:|---:|---:|---:|\n");
+    printf("\n| %-18s | %-9s | %-8s | %-20s | %-22s | %8s | %6s | %9s | %6s | %5s |\n", "scene",
+           "grows", "what", "sizes", "ms", "exponent", "off by", "last step", "memory", "pairs");
+    printf("|:---|:---|:---|:---|:---|---:|---:|---:|---:|---:|\n");
 }
 
 static void satellite_series(int extent)
