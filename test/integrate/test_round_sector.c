@@ -194,6 +194,45 @@ static void facets_and_margins_are_together_the_patch(void **state)
     assert_true(largest > 1e-4); /* without the margins the test would fail */
 }
 
+/* Near the outline, a part of a side may be too steep for bounds of its own, although the whole side,
+   of which only the middle is examined, has some: its bound is infinite then, not 0. */
+static void parts_that_are_too_steep_have_no_bound(void **state)
+{
+    (void)state;
+    static patch_scene s;
+    const lrcs_brdf brdf = {0, 1, 1, 0};
+    int known = 0;
+    int steep = 0;
+    for (int i = 0; i < 40; i++) {
+        scene_at_random(LRCS_SHAPE_SPHERE, &brdf, &s);
+        lrcsi_round_wall wall = lrcsi_round_wall_make(&s.view, &s.plan, 0, 1);
+        for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
+            lrcsi_round_sector sector;
+            if (s.view.facing[f] != 1 || !lrcsi_round_sector_make(&wall, f, &sector)) {
+                continue;
+            }
+            for (int k = 0; k < 2 * sector.sides; k++) {
+                const lrcsi_round_side *side = &sector.side[k / 2];
+                const lrcsi_round_range end = {k % 2 ? 0.9 : -1, k % 2 ? 1 : -0.9};
+                lrcsi_round_margin margin;
+                if (!lrcsi_round_margin_bounds(&wall, side, lrcsi_round_whole_side, &margin)) {
+                    assert_false(margin.largest < HUGE_VAL);
+                    continue;
+                }
+                if (lrcsi_round_margin_bounds(&wall, side, end, &margin)) {
+                    assert_true(margin.largest > 0 && margin.largest < HUGE_VAL);
+                    known++;
+                } else {
+                    assert_false(margin.largest < HUGE_VAL);
+                    steep++;
+                }
+            }
+        }
+    }
+    assert_true(known > 1000);
+    assert_true(steep > 0);
+}
+
 /* A side moved beyond the outline has no surface above it; a facet of the base is in no sector. */
 static void what_is_not_on_the_wall_is_refused(void **state)
 {
@@ -228,6 +267,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(facets_and_margins_are_together_the_patch),
+        cmocka_unit_test(parts_that_are_too_steep_have_no_bound),
         cmocka_unit_test(what_is_not_on_the_wall_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -626,6 +626,45 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     check_abs(seen / whole, (36 - 2.1 * 2.2) / 36, 1e-13);
 }
 
+/* A plate in thousands of blocks, in each of which its area is added: behind it are small facets, by
+   whose number blocks are made; in front of it is one triangle. All corners are multiples of 2^-23:
+   projected areas are exact. */
+static void sums_over_thousands_of_blocks_keep_their_bounds(void **state)
+{
+    (void)state;
+    enum { SIDE = 60, TRIALS = 20 };
+    uint64_t seed = 1;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const double a = 1 + random_below(&seed, 1u << 23) * 0x1p-23;
+        uint32_t left;
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){-a, -a, 0}, (const double[3]){2 * a, 0, 0},
+                    (const double[3]){0, 2 * a, 0});
+        scene_triangle(&scene, (const double[3]){0.5, -0.5, 1}, (const double[3]){0.625, -0.5, 1},
+                       (const double[3]){0.5, -0.375, 1});
+        const uint32_t first = scene.scene.vertex_count;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            point((i % SIDE) * 0x1p-6 - 0.5, (i / SIDE) * 0x1p-6 - 0.5, -1);
+        }
+        for (uint32_t i = 0; i < (SIDE - 1) * SIDE; i++) {
+            if (i % SIDE + 1 < SIDE) {
+                const uint32_t v = first + i;
+                scene_facet(&scene, v, v + 1, v + SIDE + 1);
+                scene_facet(&scene, v, v + SIDE + 1, v + SIDE);
+            }
+        }
+        turned((const double[3]){0, 0, 1});
+        ask(&left);
+        for (uint32_t f = 0; f < 2; f++) {
+            const double unit = 2 * a * a / lrcsi_view_projected(&view, f); /* a power of two */
+            const double area = (2 * a * a - (f == 0 ? 0x1p-7 : 0)) / unit;
+            assert_false(open[f]);
+            check_most(found[f].low, area);
+            check_most(area, found[f].high);
+        }
+    }
+}
+
 /* By the tests above. */
 static void moments_were_compared(void **state)
 {
@@ -651,6 +690,7 @@ int main(void)
         cmocka_unit_test(steps_that_run_out_leave_facets_open),
         cmocka_unit_test(memory_that_does_not_suffice_leaves_all_open),
         cmocka_unit_test(hidden_facets_are_left_out_and_change_nothing),
+        cmocka_unit_test(sums_over_thousands_of_blocks_keep_their_bounds),
         cmocka_unit_test(moments_were_compared),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

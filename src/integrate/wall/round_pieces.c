@@ -402,6 +402,19 @@ static int side_divide(const pieces_job *job, const lrcsi_occlusion *o,
     return count;
 }
 
+/* A bound on the integral over a part of a side's margin. Where none is known of the part, because
+   its middle is steeper than the side's, that of the whole side holds for it. Infinite if neither is
+   known. */
+static double margin_largest(const pieces_job *job, const lrcsi_round_side *side,
+                             lrcsi_round_range range)
+{
+    lrcsi_round_margin margin;
+    if (!lrcsi_round_margin_bounds(&job->wall, side, range, &margin)) {
+        (void)lrcsi_round_margin_bounds(&job->wall, side, lrcsi_round_whole_side, &margin);
+    }
+    return margin.largest;
+}
+
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
    visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
 static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
@@ -425,7 +438,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
                 job->visible[to].high > 0) {
                 lrcsi_round_margin_add(&margin, 1, &terms[to]);
             } else {
-                terms[to].own += margin.largest;
+                terms[to].own += margin_largest(job, side, part[k].range);
             }
         }
     }
@@ -466,12 +479,7 @@ static double unknown_margin(const pieces_job *job, const lrcsi_occlusion *o,
     const int parts = side_divide(job, o, side, part);
     double sum = 0;
     for (int k = 0; k < parts; k++) {
-        lrcsi_round_margin margin;
-        if (part[k].state < 0) {
-            sum += lrcsi_round_margin_bounds(&job->wall, side, part[k].range, &margin)
-                       ? margin.largest
-                       : HUGE_VAL;
-        }
+        sum += part[k].state < 0 ? margin_largest(job, side, part[k].range) : 0;
     }
     return sum;
 }

@@ -274,6 +274,7 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
             double slope = 0;
             margin_piece piece;
             if (!margin_piece_place(wall, side, range, i, n, &piece)) {
+                margin->largest = HUGE_VAL;
                 return 0;
             }
             double bound = margin_bound(wall, side, &piece, 1, 1, &width, &slope);
@@ -288,6 +289,7 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
             return 1;
         }
     }
+    margin->largest = HUGE_VAL;
     return 0;
 }
 

@@ -67,8 +67,8 @@ int lrcsi_round_sector_make(const lrcsi_round_wall *wall, uint32_t facet,
                             lrcsi_round_sector *sector);
 
 /* A margin, or a part of it: the integral of G over it, positive where the arc is outside the
-   sector; a bound on the size of that integral over any part of it; and bounds on its width and
-   area. */
+   sector; a bound on the size of that integral over any part of it, infinite if none is known; and
+   bounds on its width and area. */
 typedef struct lrcsi_round_margin {
     lrcsi_round_sum sum;
     double largest, width, area;
@@ -86,12 +86,13 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
                                lrcsi_round_range range, lrcsi_round_margin *margin);
 
 /* Makes a margin, except for the integral itself. Returns 0 if only width and area are known, or if
-   the tangent of the true surface's inclination to the view plane may exceed 17.5 above it. */
+   the tangent of the true surface's inclination to the view plane may exceed 17.5 above it;
+   `largest` is infinite then. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_range range, lrcsi_round_margin *margin);
 
-/* Makes a margin. Returns 0 if its bounds are not known, or if only its integral is not, because of
-   rounding: the bounds hold then. */
+/* Makes a margin. Returns 0 if its integral is not known, because its bounds are not, or because of
+   rounding; in the latter case `largest` is finite. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_range range, lrcsi_round_margin *margin);
 

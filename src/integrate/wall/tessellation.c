@@ -249,7 +249,9 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         is_certain) { /* 4 */
         const lrcsi_patch *patch = lrcsi_patch_make(view, in->plan, &brdf, facet, patches);
         if (patch) {
-            return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder, 0, 0, 0};
+            error.above += area * patch->remainder;
+            error.below += area * patch->remainder;
+            return error;
         }
     }
     lrcsi_wall_facet at = {.facet = facet, /* 5 */

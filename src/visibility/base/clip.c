@@ -70,7 +70,7 @@ double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)
 }
 
 double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double about[2],
-                             double first[2])
+                             lrcsi_moment *moment)
 {
     const double(*c)[2] = (const double(*)[2])polygon->corner;
     double sum[2] = {0, 0};
@@ -88,8 +88,10 @@ double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double abo
                 (((c[0][k] - about[k]) + (c[j - 1][k] - about[k]) + (c[j][k] - about[k])) / 3);
         }
     }
-    first[0] += sum[0];
-    first[1] += sum[1];
+    for (int k = 0; k < 2; k++) {
+        moment->first[k] += sum[k];
+        moment->error += LRCSI_U * fabs(moment->first[k]);
+    }
     /* The root of the exact square is at most 2 u larger, and rounding it changes half an ulp: r =
        m 2^e, 1 <= m < 2, is too small by at most m + 1/2 ulps. The rounded r (1 + 4 u) is larger
        than r by at least 2 ulps, and by at least 2 m - 1/2. */

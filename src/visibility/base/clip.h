@@ -9,6 +9,7 @@
 
 #include "base/constant.h"
 #include "base/range.h"
+#include "visibility/base/visible_area.h"
 
 /* A convex polygon, counter-clockwise. */
 #define LRCSI_CLIP_MAX_SIDES 32u
@@ -34,12 +35,13 @@ double lrcsi_clip_area(const lrcsi_clip_polygon *polygon);
    squared. */
 int lrcsi_clip_longest_side(const double corner[3][2], double *square);
 
-/* Adds to first[] the integral of x - about over a polygon, and returns the largest distance of its
-   corners from `about`. With n corners, the error of either component is at most 5 u n times that
-   distance times the area of the polygon's box: each of its n - 2 triangles has an error of 4 u of
-   the box in its area and 4 u in its centroid, and is added once. */
+/* Adds to moment->first the integral of x - about over a polygon, to moment->error the rounding
+   error of this addition, and returns the largest distance of its corners from `about`. With n
+   corners, the error of either component of the integral is at most 5 u n times that distance times
+   the area of the polygon's box: each of its n - 2 triangles has an error of 4 u of the box in its
+   area and 4 u in its centroid, and is added once. */
 double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double about[2],
-                             double first[2]);
+                             lrcsi_moment *moment);
 
 /* The area of one triangle of the fan of a convex polygon about its corner c: that of c p q. *error
    is increased by a bound on its error in a sum to which negative areas should add nothing,

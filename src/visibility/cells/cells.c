@@ -98,7 +98,7 @@ static void add_visible_moment(lrcsi_moment *moment, double *reach, const lrcsi_
 {
     const double centre[2] = {(f->x[0] + f->x[1] + f->x[2]) / 3, (f->y[0] + f->y[1] + f->y[2]) / 3};
     double size = lrcsi_max(f->high[0] - f->low[0], f->high[1] - f->low[1]);
-    double farthest = lrcsi_clip_add_moment(piece, centre, moment->first);
+    double farthest = lrcsi_clip_add_moment(piece, centre, moment);
     *reach = lrcsi_max3(*reach, farthest, size);
     moment->error += (2 * f->err + 4 * LRCSI_U * size) * lrcsi_max(0, lrcsi_clip_area(piece));
 }
@@ -138,7 +138,9 @@ static void add_visible_area(cells_job *job, const lrcsi_cell *cell, const lrcsi
             }
         }
     }
-    area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
+    if (piece.count >= 3) {
+        lrcsi_sum_add(&area->visible, lrcsi_max(0, lrcsi_clip_area(&piece)));
+    }
     if (job->moment && piece.count >= 3) {
         add_visible_moment(&job->moment[f->facet], &job->reach[f->facet], f, &piece);
     }
@@ -409,9 +411,11 @@ static uint32_t areas_report(cells_job *job, int as_single, unsigned char *found
         double whole = lrcsi_view_projected(view, f);
         int some_visible = (finding & LRCSI_FINDING_VISIBLE) != 0;
         int some_hidden = (finding & LRCSI_FINDING_HIDDEN) != 0;
-        double area = !some_hidden ? whole : !some_visible ? 0 : lrcsi_min(whole, a->visible);
+        double sum = lrcsi_sum_value(&a->visible);
+        double area = !some_hidden ? whole : !some_visible ? 0 : lrcsi_min(whole, sum);
         double err = a->uncertainty;
-        err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * a->visible : 0;
+        err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * sum : 0;
+        err *= LRCSI_OUTWARD_MICRO; /* of the sums over cells */
         if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(b, f, whole, as_single)) {
             visible[f] = (lrcsi_visible_area){area, lrcsi_max(0, area - err),
                                               lrcsi_min(whole, area + err), 0, 0};

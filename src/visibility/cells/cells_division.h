@@ -9,6 +9,7 @@
 
 #include "base/constant.h"
 #include "base/meter.h"
+#include "base/sum.h"
 #include "visibility/cells/cells_facet.h"
 
 /* The largest number of cuts from a division to a cell, and of cells on the stack. */
@@ -45,7 +46,7 @@ static inline void lrcsi_cell_copy(const lrcsi_cell *from, lrcsi_cell *to)
 
 /* Areas of a facet. */
 typedef struct lrcsi_cell_area {
-    double visible; /* in cells in which it is visible */
+    lrcsi_sum visible; /* in cells in which it is visible */
     double visible_err;
     double uncertainty;  /* in strips in which its visibility is undecided */
     double strip_length; /* of those strips */

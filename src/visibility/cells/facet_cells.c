@@ -42,6 +42,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/outward.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells/cells_cut.h"
@@ -91,7 +92,7 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     cells->wanted = 1;
-    cells->area = (lrcsi_cell_area){.visible = 0};
+    cells->area = (lrcsi_cell_area){.visible_err = 0};
     d->facet = f;
     d->area = &cells->area;
     d->wanted = &cells->wanted;
@@ -136,9 +137,9 @@ static void add_visible_piece(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
     double(*corner)[2] = cells->target.corner;
     const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
                               (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
-    double reach = lrcsi_clip_add_moment(&cells->piece, centre, cells->moment.first);
+    double reach = lrcsi_clip_add_moment(&cells->piece, centre, &cells->moment);
     cells->reach = lrcsi_max(cells->reach, reach);
-    area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
+    lrcsi_sum_add(&area->visible, lrcsi_max(0, lrcsi_clip_area(&cell->shape)));
     area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                                (s->high[0] - s->low[0]) *
                                                                (s->high[1] - s->low[1]);
@@ -212,13 +213,13 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
 static void moment_close(lrcsi_facet_cells *cells, double err)
 {
     const lrcsi_target *t = &cells->target;
-    double undecided = cells->perhaps_hidden + cells->perhaps_visible;
+    double undecided = (cells->perhaps_hidden + cells->perhaps_visible) * LRCSI_OUTWARD_MICRO;
     double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
     double reach = lrcsi_max(cells->reach, t->diameter);
     if (cells->frame.needle) {
         cells->moment.error = HUGE_VAL;
     } else if (cells->hidden || undecided > 0) {
-        cells->moment.error = reach * differs;
+        cells->moment.error += reach * differs;
     } else {
         cells->moment = (lrcsi_moment){.error = reach * differs};
     }
@@ -230,16 +231,16 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
     lrcsi_incidence incidence = lrcsi_view_incidence(cells->division.view, cells->facet);
     double whole = incidence.projected;
     double unit = cells->frame.unit;
-    double err = unit * (cells->border_area + found->uncertainty + found->visible_err +
-                         64 * LRCSI_U * (found->visible + cells->perhaps_visible));
-    double visible = cells->hidden || cells->perhaps_hidden > 0
-                         ? lrcsi_min(whole, unit * (found->visible + cells->perhaps_visible))
-                         : whole;
+    double perhaps_hidden = cells->perhaps_hidden * LRCSI_OUTWARD_MICRO; /* of sums over cells */
+    double perhaps_visible = cells->perhaps_visible * LRCSI_OUTWARD_MICRO;
+    double sum = lrcsi_sum_value(&found->visible) + perhaps_visible;
+    double err = cells->border_area + found->uncertainty + found->visible_err + 64 * LRCSI_U * sum;
+    err *= unit * LRCSI_OUTWARD_MICRO;
+    double visible = cells->hidden || perhaps_hidden > 0 ? lrcsi_min(whole, unit * sum) : whole;
     err += cells->frame.needle ? incidence.error * whole : 0;
     moment_close(cells, err);
-    return (lrcsi_visible_area){
-        visible, lrcsi_max(0, visible - unit * cells->perhaps_visible - err),
-        lrcsi_min(whole, visible + unit * cells->perhaps_hidden + err), 0, 0};
+    return (lrcsi_visible_area){visible, lrcsi_max(0, visible - unit * perhaps_visible - err),
+                                lrcsi_min(whole, visible + unit * perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */

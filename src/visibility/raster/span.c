@@ -68,6 +68,8 @@ lrcsi_pixel_segment lrcsi_span_segment(const double *a, const double *b, double 
 int lrcsi_span_clip(const lrcsi_edge_functions *e, const double a[2], const double b[2], double err,
                     double t[2])
 {
+    t[0] = 0;
+    t[1] = 1;
     for (int k = 0; k < 3; k++) {
         double limit = 2 * e->value_err + err * (fabs(e->dx[k]) + fabs(e->dy[k]));
         double p = e->c[k] + e->dx[k] * a[0] + e->dy[k] * a[1] + limit;
@@ -116,21 +118,13 @@ static inline void row_crossings(const lrcsi_edge_functions *e, double y, double
     }
 }
 
-/* Where a span with uncertain pixels begins and ends (touched, possible), before rounding to whole
-   pixels. */
-static inline void outer_ends(const double cross[4], const double margin[4], double x0, double x1,
-                              double end[2])
+/* Where a span begins and ends, before rounding to whole pixels: with the uncertain pixels (touched,
+   possible; outward 1) or without them (certain, full; outward -1). */
+static inline void span_ends(const double cross[4], const double margin[4], double outward,
+                             double x0, double x1, double end[2])
 {
-    end[0] = lrcsi_max3(x0, cross[0] - margin[0], cross[1] - margin[1]);
-    end[1] = lrcsi_min3(x1, cross[2] + margin[2], cross[3] + margin[3]);
-}
-
-/* The same without uncertain pixels (certain, full). */
-static inline void inner_ends(const double cross[4], const double margin[4], double x0, double x1,
-                              double end[2])
-{
-    end[0] = lrcsi_max3(x0, cross[0] + margin[0], cross[1] + margin[1]);
-    end[1] = lrcsi_min3(x1, cross[2] - margin[2], cross[3] - margin[3]);
+    end[0] = lrcsi_max3(x0, cross[0] - outward * margin[0], cross[1] - outward * margin[1]);
+    end[1] = lrcsi_min3(x1, cross[2] + outward * margin[2], cross[3] + outward * margin[3]);
 }
 
 /* The least of max(value at row y0, value at row y1) + pixels * variation over the sides that are
@@ -175,8 +169,8 @@ lrcsi_sample_spans lrcsi_span_samples(const lrcsi_edge_functions *e, uint32_t y)
     double possible[2];
     double certain[2];
     row_crossings(e, y, cross);
-    outer_ends(cross, e->sample_margin, e->x0, e->x1, possible);
-    inner_ends(cross, e->sample_margin, e->x0, e->x1, certain);
+    span_ends(cross, e->sample_margin, 1, e->x0, e->x1, possible);
+    span_ends(cross, e->sample_margin, -1, e->x0, e->x1, certain);
     if (e->parallel) {
         double value = parallel_value(e, y, y, 0);
         possible[1] = value < -e->value_err ? 0 : possible[1];
@@ -194,23 +188,11 @@ lrcsi_pixel_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y,
     double cross[4];
     double full[2];
     row_crossings(e, y, cross);
-    inner_ends(cross, e->pixel_margin, certain.x0, certain.x1, full);
+    span_ends(cross, e->pixel_margin, -1, certain.x0, certain.x1, full);
     if (e->parallel && !(parallel_value(e, y, y, -1) > e->value_err)) {
         full[1] = 0;
     }
     return inner_span(full, certain);
-}
-
-lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
-{
-    double cross[4];
-    double touched[2];
-    row_crossings(e, y, cross);
-    outer_ends(cross, e->pixel_margin, e->left, e->right, touched);
-    if (e->parallel && parallel_value(e, y, y, 1) < -e->value_err) {
-        touched[1] = 0;
-    }
-    return outer_span(touched, e->left, e->right);
 }
 
 /* The crossing of a side with the rows is linear in y, and so is the value of a side parallel to
@@ -226,9 +208,14 @@ lrcsi_pixel_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t
             i < 2 ? lrcsi_min(cross[0][i], cross[1][i]) : lrcsi_max(cross[0][i], cross[1][i]);
     }
     double touched[2];
-    outer_ends(cross[0], e->pixel_margin, e->left, e->right, touched);
+    span_ends(cross[0], e->pixel_margin, 1, e->left, e->right, touched);
     if (e->parallel && parallel_value(e, y0, y1, 1) < -e->value_err) {
         touched[1] = 0;
     }
     return outer_span(touched, e->left, e->right);
+}
+
+lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
+{
+    return lrcsi_span_touched_rows(e, y, y);
 }

@@ -64,7 +64,7 @@ static inline void lrcsi_span_follow(const lrcsi_pixel_segment *s, uint32_t y, u
 
 /* Clips the segment a b to within `err` of a facet: from a + t[0] (b - a) to a + t[1] (b - a); no
    point that near is lost. Its ends may be as far outside the window as those of
-   lrcsi_raster_intersection. Given: t[0] and t[1], 0 and 1. Returns 0 if nothing remains. */
+   lrcsi_raster_intersection. Returns 0 if nothing remains. */
 int lrcsi_span_clip(const lrcsi_edge_functions *e, const double a[2], const double b[2], double err,
                     double t[2]);
 
