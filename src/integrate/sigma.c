@@ -23,6 +23,7 @@
 #include "integrate/sigma_run.h"
 #include "integrate/wall/round_rim.h"
 #include "visibility/raster/preview.h"
+#include "visibility/raster/visible.h"
 
 lrcs_run_options lrcs_run_options_default(void)
 {
@@ -292,7 +293,7 @@ static int image_draw(const lrcsi_view *view, lrcs_progress *progress, lrcs_work
     size_t mark = work->used;
     int status = view->point ? LRCS_OK : lrcsi_view_project(work, &projected);
     if (status == LRCS_OK) {
-        status = lrcsi_raster_make(&projected, image->size, progress, work, &raster);
+        status = lrcsi_raster_make(&projected, image->size, NULL, progress, work, &raster);
     }
     if (status == LRCS_OK) {
         lrcsi_image_fill(&projected, raster.owner, image);

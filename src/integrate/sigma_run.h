@@ -9,6 +9,7 @@
 
 #include "integrate/plan/cost.h"
 #include "integrate/sum/total.h"
+#include "visibility/uniform/decisions.h"
 
 enum lrcsi_sigma_stage {
     LRCSI_SIGMA_VIEW,       /* which facets face the laser; their view coordinates, if needed */

@@ -6,6 +6,7 @@
 #include "base/work.h"
 #include "integrate/sigma_run.h"
 #include "visibility/raster/preview.h"
+#include "visibility/raster/visible.h"
 
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries)
 {
@@ -88,7 +89,6 @@ static int draw_raster(lrcsi_sigma *run, lrcsi_attempts *attempts)
     lrcsi_attempt *attempt = &attempts->current;
     lrcs_progress *progress = run->request.options->progress;
     lrcsi_outcome *outcome = &run->outcome;
-    lrcsi_raster raster;
     int undecided = 0;
     int status = LRCS_OK;
     if (!attempt->samples_only && !attempts->decided) {
@@ -103,21 +103,18 @@ static int draw_raster(lrcsi_sigma *run, lrcsi_attempts *attempts)
         }
     }
     run->areas = (lrcsi_areas){.visible = run->memory.visible};
-    size_t mark = run->work->used;
     uint32_t size = attempt->size;
     do {
-        status =
-            attempt->samples_only
-                ? lrcsi_preview_make(&run->view, size, progress, run->work, run->memory.visible,
-                                     &undecided)
-                : lrcsi_visible_areas_from_samples(&attempts->decisions, size, progress, run->work,
-                                                   &raster, run->memory.visible, &undecided);
+        status = attempt->samples_only
+                     ? lrcsi_preview_make(&run->view, size, progress, run->work,
+                                          run->memory.visible, &undecided)
+                     : lrcsi_visible_areas_from_samples(&attempts->decisions, size, progress,
+                                                        run->work, run->memory.visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
         size /= 2;
     } while (status == LRCS_E_MEMORY && size >= 1);
     outcome->flags |= status == LRCS_OK && undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
-    run->work->used = mark;
     return status;
 }
 

@@ -48,8 +48,8 @@ int lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
         if (o->whole) {
             lrcsi_target_make(classification->view, facet, &o->single.target);
         }
-    } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter,
-                                     &o->single.crossings)) {
+    } else if (!lrcsi_query_hidden_by_component(classification, &o->facets, facet, o->meter,
+                                                &o->single.crossings)) {
         o->undecided = 1;
         lrcsi_facet_cells_open(&o->single, facet);
     }
@@ -171,7 +171,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
         moment[f] = (lrcsi_moment){.error = 0};
     }
     for (uint32_t f = status == LRCS_OK ? 0 : count;
-         (f = lrcsi_marks_next(o.answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+         (f = lrcsi_marks_next(o.answer, f, count, LRCSI_QUERY_NO_ANSWER)) < count; f++) {
         if (!classification->undecided[f]) {
             visible[f] = uniform_area(&o, f); /* its query gave no answer */
             if (moment) {
@@ -208,7 +208,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
     if (status == LRCS_OK && answer) {
         *answer = memmove(lrcsi_work_take(work, count, 1), o.answer, count);
     } else if (status == LRCS_OK) {
-        lrcsi_visible_areas_from_answers(view, o.answer, visible);
+        lrcsi_query_areas(view, o.answer, visible);
     }
     return status;
 }

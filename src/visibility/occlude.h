@@ -12,7 +12,7 @@ typedef struct lrcsi_occlusion {
     lrcsi_classification *classification;
     lrcsi_meter *meter;
     lrcsi_grid facets;     /* those that can hide others */
-    unsigned char *answer; /* facet: a lrcsi_query_answer; UNDECIDED too if it is undecided */
+    unsigned char *answer; /* facet: a lrcsi_query_answer; NO_ANSWER for undecided ones */
     /* The current facet: */
     lrcsi_facet_cells single; /* its target, its piece, and, if it is undecided, its cells */
     int undecided;            /* its pieces are found cell by cell; otherwise all of it is visible
@@ -56,7 +56,7 @@ lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
    (visibility/cells/cells.h), or one by one if that is likely to be faster. If the limit on cells is reached, the bounds of
    the areas include what is still open.
    Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
-   all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.
+   all of it is visible (exact); otherwise LRCSI_QUERY_NO_ANSWER, and visible[facet] is its area.
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.
    Unless NULL, moment[] has the moments of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */

@@ -361,8 +361,8 @@ static void answers_stand_for_areas(void **state)
         int whole = area[f].low == area[f].high && area[f].area > 0;
         answer[f] = whole               ? LRCSI_QUERY_VISIBLE
                     : area[f].area == 0 ? LRCSI_QUERY_HIDDEN
-                                        : LRCSI_QUERY_UNDECIDED;
-        if (answer[f] != LRCSI_QUERY_UNDECIDED) {
+                                        : LRCSI_QUERY_NO_ANSWER;
+        if (answer[f] != LRCSI_QUERY_NO_ANSWER) {
             area[f] = (lrcsi_visible_area){NAN, NAN, NAN, NAN, NAN};
         }
     }

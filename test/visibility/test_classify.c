@@ -39,7 +39,7 @@ static uint32_t crossing_count(uint32_t facet)
 
 static int screened(uint32_t facet)
 {
-    return lrcsi_query_screened(&classification, &facets, facet, NULL, &crossings);
+    return lrcsi_query_hidden_by_component(&classification, &facets, facet, NULL, &crossings);
 }
 
 /* A level square, front up: corner at (x, y, z). */

@@ -444,7 +444,7 @@ static void answers_and_areas_tell_what_areas_alone_tell(void **state)
                      LRCS_OK);
     for (uint32_t f = 0; f < SECTORS + 3; f++) {
         double whole = lrcsi_view_projected(&view, f);
-        int undecided = answer[f] == LRCSI_QUERY_UNDECIDED;
+        int undecided = answer[f] == LRCSI_QUERY_NO_ANSWER;
         times[answer[f]]++;
         if (!undecided) {
             double area = answer[f] == LRCSI_QUERY_VISIBLE ? whole : 0;
@@ -456,7 +456,7 @@ static void answers_and_areas_tell_what_areas_alone_tell(void **state)
     }
     assert_int_equal(times[LRCSI_QUERY_HIDDEN], 1);
     assert_int_equal(times[LRCSI_QUERY_VISIBLE], SECTORS + 1); /* and half of the plate */
-    assert_int_equal(times[LRCSI_QUERY_UNDECIDED], 1);
+    assert_int_equal(times[LRCSI_QUERY_NO_ANSWER], 1);
 }
 
 int main(void)

@@ -250,7 +250,7 @@ static void clipped_segments_keep_what_lies_in_the_triangle(void **state)
         int corner[3][2];
         double a[2];
         double b[2];
-        double t[2] = {0, 1};
+        double t[2];
         triangle_of(&seed, i % 2, corner);
         for (int k = 0; k < 2; k++) {
             a[k] = (int)random_below(&seed, 16 * N) / 8.0 - N / 2.0;

@@ -26,7 +26,7 @@ typedef struct lrcsi_areas {
 /* Is it an answer that says what is visible of the facet? */
 static inline int lrcsi_areas_answered(const lrcsi_areas *areas, uint32_t facet)
 {
-    return areas->answer && areas->answer[facet] != LRCSI_QUERY_UNDECIDED;
+    return areas->answer && areas->answer[facet] != LRCSI_QUERY_NO_ANSWER;
 }
 
 /* What a facet on a curved wall adds, or NULL if that is not known. */

@@ -5,7 +5,8 @@
 #define LRCSI_CELLS_H
 
 #include "base/progress.h"
-#include "visibility/raster/visible.h"
+#include "visibility/base/visible_area.h"
+#include "visibility/uniform/classify.h"
 
 /* Bytes at most. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared);

@@ -5,7 +5,6 @@
 #define LRCSI_FACET_CELLS_H
 
 #include "visibility/cells/facet_cells_state.h"
-#include "visibility/raster/visible.h"
 
 /* Bytes at most. */
 size_t lrcsi_facet_cells_need(const lrcs_prepared *prepared);

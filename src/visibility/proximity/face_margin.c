@@ -259,7 +259,7 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
         facets_make(job);
     }
     if (!job->facets_made) {
-        return LRCSI_QUERY_UNDECIDED;
+        return LRCSI_QUERY_NO_ANSWER;
     }
     for (int i = 0; i < 2; i++) {
         x[i] = 0.5 * (m->a[i] + m->b[i]) + 0.5 * m->width * m->outward[i];
@@ -272,14 +272,14 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
     const lrcsi_view_box box = lrcsi_view_box_round(view, here, here);
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(&job->facets, &box);
     lrcsi_grid_items items;
-    int answer = LRCSI_QUERY_UNDECIDED;
+    int answer = LRCSI_QUERY_NO_ANSWER;
     while (lrcsi_grid_next_row(&job->facets, &buckets, &items)) {
         const int counted = lrcsi_meter_take(job->bands->meter, (uint64_t)items.to - items.from);
         for (uint32_t i = items.from; i < items.to && counted; i++) {
             const uint32_t f = job->facets.item[i];
             if (view->prepared->scene->facet_part[f] == job->face.part &&
                 lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x) &&
-                answer == LRCSI_QUERY_UNDECIDED) {
+                answer == LRCSI_QUERY_NO_ANSWER) {
                 answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             }
         }
@@ -302,7 +302,7 @@ static double edge_area(face_job *job, const lrcsi_edge_margin *m, double *error
     double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
     const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
                                             job->contact};
-    int visibility = LRCSI_QUERY_UNDECIDED;
+    int visibility = LRCSI_QUERY_NO_ANSWER;
     if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
         lrcsi_edge_margin_is_isolated(bands, m, &receiver, turn)) {
         visibility = margin_visibility(job, m);

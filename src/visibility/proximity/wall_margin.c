@@ -342,7 +342,7 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
             return lrcsi_query_point(&job->facets, f, point, job->bands->meter);
         }
     }
-    return LRCSI_QUERY_UNDECIDED;
+    return LRCSI_QUERY_NO_ANSWER;
 }
 
 /* --- margins ---------------------------------------------------------------------------------- */

@@ -4,7 +4,7 @@
 
    The driver is lrcsi_preview_make:
    1. lrcsi_raster_make: the owners of all samples.
-   2. count_samples: the samples that each facet owns, and the borders of its visible region.
+   2. count_borders: the borders of each facet's visible region.
    3. find_fractions: the visible fraction of each facet.
    4. bias_of_small_facets, preview_area: the areas, and their estimated errors. */
 #include "visibility/raster/preview.h"
@@ -13,6 +13,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/raster/raster.h"
 
 /* A border between the samples of two owners, followed along a row or column of pixels. */
 typedef struct preview_border {
@@ -107,30 +108,22 @@ static void count_border(preview_job *job, preview_border *border, uint32_t posi
     }
 }
 
-/* Counts the samples that each facet owns, and the borders between owners. Borders along rows are
-   followed in `along`, borders along columns in job->column. */
-static void count_samples(preview_job *job)
+/* Counts the borders between owners. Those along rows are followed in `along`, those along columns
+   in job->column. */
+static void count_borders(preview_job *job)
 {
     uint32_t size = job->raster.size;
     for (uint32_t y = 0; y < size; y++) {
         const uint32_t *row = job->raster.owner + (size_t)y * size;
         const uint32_t *next = y + 1 < size ? row + size : row;
         preview_border along = {{LRCS_NONE, LRCS_NONE}, LRCS_NONE - 1, 0};
-        uint32_t from = 0; /* the first of a span of samples with the same owner */
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
                 count_border(job, &along, x, (preview_sample){owner, x, y},
                              (preview_sample){next[x], x, y + 1});
             }
-            if (x + 1 < size && row[x + 1] == owner) {
-                continue;
-            }
-            if (owner != LRCS_NONE) {
-                job->raster.owned[owner] += x + 1 - from;
-            }
-            from = x + 1;
-            if (x + 1 < size) {
+            if (x + 1 < size && row[x + 1] != owner) {
                 count_border(job, &job->column[x], y + 1, (preview_sample){owner, x, y},
                              (preview_sample){row[x + 1], x + 1, y});
             }
@@ -291,16 +284,16 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes(prepared->scene->facet_count, sizeof(preview_counts));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(preview_border)));
-    return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
+    return lrcsi_work_add(need, lrcsi_raster_need(prepared, size, 0));
 }
 
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
-                       lrcs_work *work, lrcsi_visible_area *visible, int *undecided)
+                       lrcs_work *work, lrcsi_visible_area *visible, int *depth_undecided)
 {
     const uint32_t facets = view->prepared->scene->facet_count;
     const size_t mark = work->used;
     preview_job job = {.view = view};
-    int status = lrcsi_raster_make(view, size, progress, work, &job.raster);
+    int status = lrcsi_raster_make(view, size, NULL, progress, work, &job.raster);
     if (status == LRCS_OK) {
         job.counts = lrcsi_work_take_zero(work, facets, sizeof *job.counts);
         job.column = lrcsi_work_take_zero(work, size, sizeof *job.column);
@@ -310,14 +303,14 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_progress *pro
         work->used = mark;
         return status;
     }
-    count_samples(&job);
+    count_borders(&job);
     find_fractions(&job);
     const preview_bias bias = bias_of_small_facets(&job);
-    *undecided = 0;
+    *depth_undecided = 0;
     for (uint32_t f = 0; f < facets; f++) {
         visible[f] =
             lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_area_exact(0);
-        *undecided |= job.raster.undecided[f];
+        *depth_undecided |= job.raster.order_undecided[f];
     }
     work->used = mark;
     return LRCS_OK;

@@ -6,7 +6,8 @@
 #ifndef LRCSI_PREVIEW_H
 #define LRCSI_PREVIEW_H
 
-#include "visibility/raster/visible.h"
+#include "base/progress.h"
+#include "visibility/base/visible_area.h"
 
 /* Upper bound of bytes. */
 size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
@@ -15,6 +16,6 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
    facets could not be decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work
    area. */
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
-                       lrcs_work *work, lrcsi_visible_area *visible, int *undecided);
+                       lrcs_work *work, lrcsi_visible_area *visible, int *depth_undecided);
 
 #endif

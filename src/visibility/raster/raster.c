@@ -73,50 +73,35 @@ lrcsi_edge_functions lrcsi_raster_edge_functions(const lrcsi_raster *raster, uin
     return e;
 }
 
-/* A facet's normal N in view coordinates, in doubles. Error of each: 8 u |N|. */
-static void normal_in_view(const lrcsi_view *view, uint32_t facet, double normal[3])
-{
-    const double *n = view->prepared->normal[facet].high;
-    for (int k = 0; k < 3; k++) {
-        normal[k] = view->R[k][0] * n[0] + view->R[k][1] * n[1] + view->R[k][2] * n[2];
-    }
-}
-
-/* For a facet that is edge-on the plane is arbitrary: the error bound of its heights is infinite,
-   so that they decide nothing. */
+/* From the facet's normal n in view coordinates, in doubles, with errors of 8 u |n|. A height is
+   that of a corner plus slopes times differences of coordinates from the corner. These differences
+   are at most `radius`, which includes samples and corners. Each has an error of 16 u radius, to
+   which the error of the sample is added. Division by |cos| gives the error of the height. The
+   error of the denominator changes a height within `radius` by as much again. For a facet that is
+   edge-on the plane is arbitrary: the error bound is infinite, so that its heights decide nothing.
+   */
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
 {
     const lrcsi_view *view = raster->view;
-    double n[3];
-    normal_in_view(view, facet, n);
-    const double *a = view->point[view->prepared->scene->facet[facet].corner[0]].x;
-    double dx = n[2] != 0 ? -n[0] / n[2] : 0;
-    double dy = n[2] != 0 ? -n[1] / n[2] : 0;
-    lrcsi_plane plane;
-    plane.c = a[2] - dx * (a[0] - view->low[0]) - dy * (a[1] - view->low[1]);
-    plane.dx = dx * raster->pixel;
-    plane.dy = dy * raster->pixel;
-    return plane;
-}
-
-/* A height is that of a corner plus slopes times differences of coordinates from the corner. These
-   differences are at most `radius`, which includes samples and corners. Each has an error of 16 u
-   radius, to which the error of the sample is added. Division by |cos| gives the error of the
-   height. The error of the denominator changes a height within `radius` by as much again. */
-double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet)
-{
-    const lrcsi_view *view = raster->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double n[3];
+    const lrcsi_normal *normal = &view->prepared->normal[facet];
+    const double *a = view->point[corner[0]].x;
     double radius = raster->radius;
-    normal_in_view(view, facet, n);
+    double n[3];
     for (int k = 0; k < 3; k++) {
         const double *x = view->point[corner[k]].x;
         radius = lrcsi_max(radius, raster->radius + fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
+        n[k] = view->R[k][0] * normal->high[0] + view->R[k][1] * normal->high[1] +
+               view->R[k][2] * normal->high[2];
     }
-    double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
+    double dx = n[2] != 0 ? -n[0] / n[2] : 0;
+    double dy = n[2] != 0 ? -n[1] / n[2] : 0;
+    double cosine = fabs(n[2]) / normal->length;
     double err = 256 * LRCSI_U * radius + 4 * raster->sample_err * raster->pixel;
-    return cosine > 64 * LRCSI_U ? err / cosine : HUGE_VAL;
+    return (lrcsi_plane){.c = a[2] - dx * (a[0] - view->low[0]) - dy * (a[1] - view->low[1]),
+                         .dx = dx * raster->pixel,
+                         .dy = dy * raster->pixel,
+                         .err = cosine > 64 * LRCSI_U ? err / cosine : HUGE_VAL};
 }
 
 /* The line in which the difference D = c + dx x + dy y of the two heights is 0. It is followed for
@@ -127,11 +112,11 @@ double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet)
 
    Error. Where the facets meet in such a pixel, |D| is at most the sum e of their height errors, so
    the point is within e / |gradient| of the line. The terms of D at the centre are together less
-   than 10 times the radius / |cos| of lrcsi_raster_height_err for each facet; with 4 roundings each
-   they change D by less than e / 6. The unit vector and the ends add less than 64 u N, and
-   coordinates of ends are below 9 N. *err is at least the sum, and 512 u N. */
+   than 10 times the radius / |cos| of lrcsi_raster_plane for each facet; with 4 roundings each they
+   change D by less than e / 6. The unit vector and the ends add less than 64 u N, and coordinates
+   of ends are below 9 N. line->err is at least the sum, and 512 u N. */
 int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
-                              uint32_t facet, uint32_t other, double a[2], double b[2], double *err)
+                              uint32_t facet, uint32_t other, lrcsi_raster_segment *line)
 {
     lrcsi_plane p = lrcsi_raster_plane(raster, facet);
     lrcsi_plane q = lrcsi_raster_plane(raster, other);
@@ -142,19 +127,16 @@ int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_funct
     double y = 0.5 * ((double)box->y0 + box->y1);
     double extent = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
     double distance = (p.c - q.c + dx * x + dy * y) / gradient; /* of the box's centre */
-    *err = 1.25 *
-               (lrcsi_raster_height_err(raster, facet) + lrcsi_raster_height_err(raster, other)) /
-               gradient +
-           512 * LRCSI_U * raster->size;
+    line->err = 1.25 * (p.err + q.err) / gradient + 512 * LRCSI_U * raster->size;
     if (!(fabs(distance) < extent)) {
         return 0;
     }
     dx /= gradient;
     dy /= gradient;
-    a[0] = x - dx * distance - dy * extent;
-    a[1] = y - dy * distance + dx * extent;
-    b[0] = x - dx * distance + dy * extent;
-    b[1] = y - dy * distance - dx * extent;
+    line->a[0] = x - dx * distance - dy * extent;
+    line->a[1] = y - dy * distance + dx * extent;
+    line->b[0] = x - dx * distance + dy * extent;
+    line->b[1] = y - dy * distance - dx * extent;
     return 1;
 }
 
@@ -173,8 +155,7 @@ int lrcsi_raster_contact(const lrcsi_raster *raster, const lrcsi_edge_functions 
                          lrcsi_raster_segment segment[3])
 {
     if (contact->kind == LRCSI_INTERSECTION_CROSS) {
-        return lrcsi_raster_intersection(raster, box, facet, contact->other, segment[0].a,
-                                         segment[0].b, &segment[0].err);
+        return lrcsi_raster_intersection(raster, box, facet, contact->other, &segment[0]);
     }
     const uint32_t *side = raster->view->prepared->topology.facet_edge[contact->other].corner;
     for (int k = 0; k < 3; k++) {

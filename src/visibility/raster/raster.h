@@ -33,30 +33,35 @@ typedef struct lrcsi_raster {
                           -HUGE_VALF: none known; HUGE_VALF: a facet known to be visible covers
                           the pixel, and all others are hidden. NULL: not needed */
     uint32_t *covered; /* facet: if drawn with a depth test, the samples that it covers; else 0 */
-    uint32_t *owned;   /* facet: the samples of active tiles that it owns, if counted; else 0 */
-    unsigned char *undecided; /* facet: 1 if the order of it and another could not be decided */
+    uint32_t *owned;   /* facet: the samples of active tiles that it owns */
+    unsigned char *order_undecided; /* facet: 1 if the depth order of it and another could not be
+                                       decided */
 } lrcsi_raster;
 
 /* The plane of a facet: height = c + dx x + dy y, with x and y in pixels. */
 typedef struct lrcsi_plane {
     double c, dx, dy;
+    double err; /* error bound of its heights at samples and within the facet; HUGE_VAL: it is too
+                   close to edge-on */
 } lrcsi_plane;
 
-/* Draws all of the view. Back sides are drawn if they cast shadows (view->backs.cast). Samples that
-   facets own are not counted.
-   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area, at most `need` bytes. */
-size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
-int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
-                      lrcs_work *work, lrcsi_raster *raster);
+/* Its height at the centre of a pixel. */
+static inline double lrcsi_plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
+{
+    return plane->c + plane->dx * (x + 0.5) + plane->dy * (y + 0.5);
+}
 
-/* Draws only the tiles around undecided facets: all pixels that these may touch, and two pixels
-   around them. Given: answer[facet], a lrcsi_query_answer. Facets known to be visible own all
-   active samples that they cover, without a depth test; facets known to be hidden own none and are
-   not drawn. Finds occluder heights, and counts the samples that facets own.
-   Status: as above. */
-size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size);
-int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                                lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster);
+/* Draws all of the view, if answer is NULL: back sides too, if they cast shadows
+   (view->backs.cast). Otherwise draws only the tiles around undecided facets: all pixels that these
+   may touch, and two pixels around them. Given: answer[facet], a lrcsi_query_answer. Facets known
+   to be visible own all active samples that they cover, without a depth test; facets known to be
+   hidden own none and are not drawn. Finds occluder heights. In both cases counts the samples that
+   facets own.
+   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area, at most `need` bytes, given
+   whether there are answers. */
+size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size, int answers);
+int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
+                      lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster);
 
 /* Sets size, pixel, pixels_per_unit, sample_err and radius only: a raster without samples. */
 void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);
@@ -78,20 +83,8 @@ void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, dou
 /* The edge functions of a facet, complete. */
 lrcsi_edge_functions lrcsi_raster_edge_functions(const lrcsi_raster *raster, uint32_t facet);
 
-/* The plane of a facet, and the error bound of its heights at samples and within the facet;
-   HUGE_VAL if it is too close to edge-on. */
+/* The plane of a facet. */
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet);
-double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet);
-
-/* The line in which the planes of two facets intersect, in pixels, as far as it may pass through
-   pixels that `facet` touches. Given: box, its edge functions. Returned: the ends a and b, and
-   *err: a point at which the facets meet in such a pixel is at most that far from the segment a b,
-   if *err is at most 1/8; otherwise nothing is known about where they meet. *err includes the
-   errors of the ends, and exceeds 32 u of their coordinates. Returns 0 if the line passes through
-   none of these pixels, under the same condition. */
-int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
-                              uint32_t facet, uint32_t other, double a[2], double b[2],
-                              double *err);
 
 /* A vertex in pixel coordinates. Returns the error bound of each, including that of samples. */
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);
@@ -100,6 +93,16 @@ double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy
 typedef struct lrcsi_raster_segment {
     double a[2], b[2], err;
 } lrcsi_raster_segment;
+
+/* The line in which the planes of two facets intersect, as far as it may pass through pixels that
+   `facet` touches. Given: box, its edge functions. A point at which the facets meet in such a pixel
+   is at most line->err from the segment, if that is at most LRCSI_RASTER_LINE_ERR_MAX; otherwise
+   nothing is known about where they meet. line->err includes the errors of the ends, and exceeds
+   32 u of their coordinates. Returns 0 if the line passes through none of these pixels, under the
+   same condition. */
+#define LRCSI_RASTER_LINE_ERR_MAX 0.125
+int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
+                              uint32_t facet, uint32_t other, lrcsi_raster_segment *line);
 
 /* An edge of the topology. */
 lrcsi_raster_segment lrcsi_raster_edge(const lrcsi_raster *raster, uint32_t edge);

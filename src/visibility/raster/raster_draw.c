@@ -3,16 +3,17 @@
    and depth order where their error bounds suffice; visibility/base/sample.h decides the rest. What
    the samples mean for visible areas is decided elsewhere (visibility/raster/visible.h, preview.h).
 
-   The driver is raster_make:
+   The driver is lrcsi_raster_make:
    1. lrcsi_raster_layout: the geometry of the raster; its arrays.
-   2. Tiles become active: all of them (lrcsi_raster_make), or those around undecided facets
-      (lrcsi_raster_make_undecided: activate_tiles). clear_tiles.
+   2. Tiles become active: all of them, or those around undecided facets (activate_tiles).
+      clear_tiles.
    3. fill_facet: facets that are known to be visible own what they cover.
    4. draw_facet: all others, with a depth test. A facet is ordinary if the error of its heights, as
       floats, is below a millionth of the window's side; nearly all are. Ordinary facets are drawn
       first, several samples at once, and compared with the stored depths. The others (nearly
       edge-on, or extending far from the window) are drawn afterwards, sample by sample, with
-      heights in doubles. */
+      heights in doubles.
+   5. count_owned: the samples that each facet owns. */
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +30,7 @@ enum { LANES = 8 };
 
 /* The largest error of an ordinary facet's heights, relative to the window's side. Heuristic: what
    is not ordinary is drawn more slowly, with the same owners. */
-#define ORDINARY_HEIGHT 0x1p-20
+#define ORDINARY_ERR 0x1p-20
 
 /* --- tiles ------------------------------------------------------------------------------------ */
 
@@ -95,7 +96,8 @@ static void clear_tiles(lrcsi_raster *r)
         const size_t row = (size_t)y * r->size;
         uint32_t x = 0;
         for (lrcsi_pixel_span span; span = tile_span(tiles, &x, r->size), span.x0 < span.x1;) {
-            memset(r->owner + row + span.x0, 0xff, (span.x1 - span.x0) * sizeof *r->owner);
+            memset(r->owner + row + span.x0, 0xff, /* LRCS_NONE */
+                   (span.x1 - span.x0) * sizeof *r->owner);
             for (size_t i = row + span.x0; i < row + span.x1; i++) {
                 r->depth[i] = -HUGE_VALF;
             }
@@ -139,21 +141,13 @@ static int bounds_drawn(const lrcsi_raster *r, const double low[3], const double
 typedef struct raster_facet {
     uint32_t facet;
     lrcsi_plane plane;
-    double err; /* error bound of its heights */
     int ordinary;
     float tolerance; /* ordinary: floats do not decide between depths that differ by no more */
     /* The last owner for which floats did not decide: */
     uint32_t last_owner;    /* its facet, or LRCS_NONE */
     lrcsi_plane last_plane; /* its plane */
-    double last_err;        /* the error of its heights */
     int last_order;         /* its lrcsi_sample_order; ORDER_UNKNOWN */
 } raster_facet;
-
-/* The height of a plane at the centre of a pixel. */
-static double plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
-{
-    return plane->c + plane->dx * (x + 0.5) + plane->dy * (y + 0.5);
-}
 
 /* Does the facet cover the sample? Decided exactly. */
 static int sample_covered(const lrcsi_raster *r, uint32_t facet, uint32_t x, uint32_t y)
@@ -170,11 +164,10 @@ static int facet_nearer(lrcsi_raster *r, raster_facet *f, uint32_t owner, uint32
     if (owner != f->last_owner) {
         f->last_owner = owner;
         f->last_plane = lrcsi_raster_plane(r, owner);
-        f->last_err = lrcsi_raster_height_err(r, owner);
         f->last_order = ORDER_UNKNOWN;
     }
-    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->last_plane, x, y);
-    if (fabs(ahead) > f->err + f->last_err) {
+    double ahead = lrcsi_plane_height(&f->plane, x, y) - lrcsi_plane_height(&f->last_plane, x, y);
+    if (fabs(ahead) > f->plane.err + f->last_plane.err) {
         return ahead > 0;
     }
     if (f->last_order == ORDER_UNKNOWN) {
@@ -186,8 +179,8 @@ static int facet_nearer(lrcsi_raster *r, raster_facet *f, uint32_t owner, uint32
     double point[3];
     lrcsi_raster_sample(r, x, y, point);
     int nearer = lrcsi_sample_nearer(r->view, f->facet, owner, point, 1);
-    r->undecided[f->facet] |= nearer == 0;
-    r->undecided[owner] |= nearer == 0;
+    r->order_undecided[f->facet] |= nearer == 0;
+    r->order_undecided[owner] |= nearer == 0;
     return nearer > 0;
 }
 
@@ -230,7 +223,7 @@ static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict dept
 static void draw_row_span(lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     size_t start = (size_t)y * r->size + x0;
-    float first = (float)plane_height(&f->plane, x0, y);
+    float first = (float)lrcsi_plane_height(&f->plane, x0, y);
     float slope = (float)f->plane.dx;
     uint32_t uncertainty = !f->ordinary;
     for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
@@ -247,7 +240,7 @@ static void draw_row_span(lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t
         if (r->owner[i] == LRCS_NONE ||
             (r->depth[i] < HUGE_VALF && facet_nearer(r, f, r->owner[i], x, y))) {
             r->owner[i] = f->facet;
-            r->depth[i] = f->ordinary ? (float)plane_height(&f->plane, x, y) : 0;
+            r->depth[i] = f->ordinary ? (float)lrcsi_plane_height(&f->plane, x, y) : 0;
         }
     }
     r->covered[f->facet] += x1 - x0;
@@ -286,7 +279,7 @@ static void raise_row_span(lrcsi_raster *r, const raster_facet *f, double drop, 
                            lrcsi_pixel_span full)
 {
     float *occluder = r->occluder + (size_t)y * r->size + full.x0;
-    float first = (float)(plane_height(&f->plane, full.x0, y) - drop);
+    float first = (float)(lrcsi_plane_height(&f->plane, full.x0, y) - drop);
     float slope = (float)f->plane.dx;
     for (uint32_t i = 0; i < full.x1 - full.x0; i += LANES) {
         raise_lanes(occluder + i, first + slope * (float)(int32_t)i, slope,
@@ -311,16 +304,15 @@ static int draw_facet(lrcsi_raster *r, uint32_t facet, int ordinary)
     }
     raster_facet f = {.facet = facet, .last_owner = LRCS_NONE};
     f.plane = lrcsi_raster_plane(r, facet);
-    f.err = lrcsi_raster_height_err(r, facet);
-    double magnitude = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.err;
-    double err = f.err + 0x1p-21 * magnitude + 0x1p-140;
-    double ordinary_err = ORDINARY_HEIGHT * r->view->side;
+    double magnitude = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.plane.err;
+    double err = f.plane.err + 0x1p-21 * magnitude + 0x1p-140;
+    double ordinary_err = ORDINARY_ERR * r->view->side;
     f.ordinary = err <= ordinary_err;
     if (f.ordinary != ordinary) {
         return f.ordinary;
     }
     f.tolerance = f.ordinary ? (float)(1.01 * (err + ordinary_err)) : 0;
-    double drop = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + f.err;
+    double drop = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + f.plane.err;
     drop += 0x1p-20 * (magnitude + drop) + 0x1p-140;
     lrcsi_edge_functions e = lrcsi_raster_edge_functions(r, facet);
     for (uint32_t y = e.y0; y < e.y1; y++) {
@@ -403,20 +395,15 @@ static size_t sample_room(uint32_t size)
     return lrcsi_work_add(lrcsi_work_square(size), LANES);
 }
 
-size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
+size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size, int answers)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(sample_room(size), sizeof(uint32_t));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(sample_room(size), sizeof(float)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_blocks(answers ? 2 : 1, sample_room(size), sizeof(float)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_work_square(raster_tiles(size)), 1));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-}
-
-size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size)
-{
-    return lrcsi_work_add(lrcsi_raster_need(prepared, size),
-                          lrcsi_work_bytes(sample_room(size), sizeof(float)));
 }
 
 /* The first facet from `facet` on that is drawn with a depth test: of all that can hide others, or
@@ -425,7 +412,7 @@ static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, u
 {
     const uint32_t count = r->view->prepared->scene->facet_count;
     if (answer) {
-        return lrcsi_marks_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
+        return lrcsi_marks_next(answer, facet, count, LRCSI_QUERY_NO_ANSWER);
     }
     while (facet < count && !lrcsi_view_casts(r->view, facet)) {
         facet++;
@@ -433,10 +420,28 @@ static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, u
     return facet;
 }
 
-/* Makes a raster of all facets that can hide others, or, if answer is not NULL, of those that are
-   known to be visible and of undecided ones, in the tiles around the latter. */
-static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                       lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster)
+/* Counts the samples of active tiles by their owners. */
+static void count_owned(lrcsi_raster *r)
+{
+    for (uint32_t y = 0; y < r->size; y++) {
+        const unsigned char *tiles = tile_row(r, y);
+        const uint32_t *owner = r->owner + (size_t)y * r->size;
+        uint32_t x = 0;
+        for (lrcsi_pixel_span span; span = tile_span(tiles, &x, r->size), span.x0 < span.x1;) {
+            for (uint32_t from = span.x0, i = span.x0 + 1; i <= span.x1; i++) {
+                if (i == span.x1 || owner[i] != owner[from]) {
+                    if (owner[from] != LRCS_NONE) {
+                        r->owned[owner[from]] += i - from;
+                    }
+                    from = i;
+                }
+            }
+        }
+    }
+}
+
+int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
+                      lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster)
 {
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
@@ -447,18 +452,15 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
     r.depth = lrcsi_work_take(work, sample_room(size), sizeof *r.depth);
     r.occluder = answer ? lrcsi_work_take(work, sample_room(size), sizeof *r.occluder) : NULL;
     r.active = lrcsi_work_take(work, lrcsi_work_square(r.tiles), 1);
-    r.covered = lrcsi_work_take(work, count, sizeof *r.covered);
-    r.owned = lrcsi_work_take(work, count, sizeof *r.owned);
-    r.undecided = lrcsi_work_take(work, count, 1);
+    r.covered = lrcsi_work_take_zero(work, count, sizeof *r.covered);
+    r.owned = lrcsi_work_take_zero(work, count, sizeof *r.owned);
+    r.order_undecided = lrcsi_work_take_zero(work, count, 1);
     if (!r.owner || !r.depth || (answer && !r.occluder) || !r.active || !r.covered || !r.owned ||
-        !r.undecided) {
+        !r.order_undecided) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     memset(r.active, answer ? 0 : 1, lrcsi_work_square(r.tiles));
-    memset(r.covered, 0, count * sizeof *r.covered);
-    memset(r.owned, 0, count * sizeof *r.owned);
-    memset(r.undecided, 0, count);
     for (uint32_t f = 0; answer && (f = next_drawn(&r, answer, f)) < count; f++) {
         activate_tiles(&r, f);
     }
@@ -474,34 +476,7 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
             others += !draw_facet(&r, f, ordinary);
         }
     }
+    count_owned(&r);
     *raster = r;
     return LRCS_OK;
-}
-
-int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_progress *progress,
-                      lrcs_work *work, lrcsi_raster *raster)
-{
-    return raster_make(view, size, NULL, progress, work, raster);
-}
-
-int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
-                                lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster)
-{
-    int status = raster_make(view, size, answer, progress, work, raster);
-    for (uint32_t y = 0; y < size && status == LRCS_OK; y++) { /* counts samples by their owners */
-        const unsigned char *tiles = tile_row(raster, y);
-        const uint32_t *owner = raster->owner + (size_t)y * size;
-        uint32_t x = 0;
-        for (lrcsi_pixel_span span; span = tile_span(tiles, &x, size), span.x0 < span.x1;) {
-            for (uint32_t from = span.x0, i = span.x0 + 1; i <= span.x1; i++) {
-                if (i == span.x1 || owner[i] != owner[from]) {
-                    if (owner[from] != LRCS_NONE) {
-                        raster->owned[owner[from]] += i - from;
-                    }
-                    from = i;
-                }
-            }
-        }
-    }
-    return status;
 }

@@ -108,7 +108,7 @@ static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], co
 {
     offset_sum s = {0};
     const lrcsi_raster *r = f->raster;
-    double t[2] = {0, 1};
+    double t[2];
     int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
     double length = b[axis] - a[axis];
     if (length == 0 || !lrcsi_span_clip(&f->edges, a, b, 0, t)) {

@@ -14,8 +14,8 @@
    Between the bounds of a facet, its samples decide (visibility/raster/visible_fraction.h).
 
    The driver is lrcsi_visible_areas_from_samples:
-   1. lrcsi_raster_make_undecided: the samples of the tiles that undecided facets touch.
-   2. lrcsi_visible_areas_from_answers: the areas of facets that queries decided.
+   1. lrcsi_raster_make: the samples of the tiles that undecided facets touch.
+   2. lrcsi_query_areas: the areas of facets that queries decided.
    3. For each undecided facet: facet_pixels finds its mixed pixels, decides the others, and adds up
       their areas; sampled_area finds the area within the bounds, and its estimated error.
    4. lrcsi_visible_fraction_correct: area that the bounds cut off goes to other facets of the
@@ -33,19 +33,6 @@
 #include "visibility/raster/sampling_error.h"
 #include "visibility/raster/visible_fraction.h"
 #include "visibility/uniform/query.h"
-
-/* --- what queries decide ---------------------------------------------------------------------- */
-
-void lrcsi_visible_areas_from_answers(const lrcsi_view *view, const unsigned char *answer,
-                                      lrcsi_visible_area *visible)
-{
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (answer[f] != LRCSI_QUERY_UNDECIDED) {
-            double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
-            visible[f] = lrcsi_visible_area_exact(area);
-        }
-    }
-}
 
 /* --- the pixels of one facet ------------------------------------------------------------------ */
 
@@ -96,7 +83,7 @@ static drawn_facet drawn_facet_make(visible_job *job, uint32_t facet)
         f.high = lrcsi_max(f.high, at->x[2] + at->err);
     }
     f.plane = lrcsi_raster_plane(r, facet);
-    f.rise = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + lrcsi_raster_height_err(r, facet);
+    f.rise = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + f.plane.err;
     for (uint32_t y = f.edges.bottom; y < f.edges.top; y++) {
         visible_row *row = &job->row[y];
         row->touched = lrcsi_span_touched(&f.edges, y);
@@ -111,12 +98,14 @@ static size_t pixel_index(const visible_job *job, uint32_t x, uint32_t y)
     return (size_t)y * job->raster->size + x;
 }
 
-/* Marks every pixel of the facet that the segment a b may touch, if the position of each of its
-   points has an error of at most a quarter of the margin, by which rows and ranges are widened
-   (visibility/raster/span.h). */
-static void mark_segment(visible_job *job, const drawn_facet *f, const double a[2],
-                         const double b[2], double margin)
+/* Marks every pixel of the facet that a segment may touch: rows and ranges are widened by four times
+   the error of its points (visibility/raster/span.h). */
+static void mark_segment(visible_job *job, const drawn_facet *f,
+                         const lrcsi_raster_segment *segment)
 {
+    const double *a = segment->a;
+    const double *b = segment->b;
+    const double margin = 4 * segment->err;
     const double bottom = f->edges.bottom;
     const double top = f->edges.top;
     const lrcsi_pixel_segment s = lrcsi_span_segment(a, b, margin);
@@ -145,6 +134,21 @@ static void mark_overlap(visible_job *job, const drawn_facet *f, const lrcsi_edg
     }
 }
 
+/* Clips a segment to within its error of a facet. Returns 0 if nothing remains. */
+static int segment_clip(lrcsi_raster_segment *s, const lrcsi_edge_functions *facet)
+{
+    const lrcsi_raster_segment all = *s;
+    double t[2];
+    if (!lrcsi_span_clip(facet, all.a, all.b, all.err, t)) {
+        return 0;
+    }
+    for (int k = 0; k < 2; k++) {
+        s->a[k] = all.a[k] + t[0] * (all.b[k] - all.a[k]);
+        s->b[k] = all.a[k] + t[1] * (all.b[k] - all.a[k]);
+    }
+    return 1;
+}
+
 /* Marks the pixels that are mixed for a facet: along the event edges that cross it, and where
    others are in contact with it. A facet that passes through it meets it on the line in which their
    planes intersect, as far as that may lie in the other facet. If the line is not known to an
@@ -160,7 +164,7 @@ static void mark_mixed(visible_job *job, const drawn_facet *f, const lrcsi_cross
     }
     for (uint32_t i = 0; i < crossings->count; i++) {
         const lrcsi_raster_segment s = lrcsi_raster_edge(r, crossings->edge[i]);
-        mark_segment(job, f, s.a, s.b, 4 * s.err);
+        mark_segment(job, f, &s);
     }
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
         const lrcsi_intersection *contact = &contacts->entry[i];
@@ -171,20 +175,14 @@ static void mark_mixed(visible_job *job, const drawn_facet *f, const lrcsi_cross
         int segments = lrcsi_raster_contact(r, &f->edges, f->facet, contact, s);
         if (contact->kind == LRCSI_INTERSECTION_CROSS) {
             const lrcsi_edge_functions other = lrcsi_raster_edge_functions(r, contact->other);
-            const double *a = s[0].a;
-            const double *b = s[0].b;
-            double t[2] = {0, 1};
-            if (!(s[0].err <= 0.125)) {
+            if (!(s[0].err <= LRCSI_RASTER_LINE_ERR_MAX)) {
                 mark_overlap(job, f, &other);
-            } else if (segments > 0 && lrcsi_span_clip(&other, a, b, s[0].err, t)) {
-                const double from[2] = {a[0] + t[0] * (b[0] - a[0]), a[1] + t[0] * (b[1] - a[1])};
-                const double to[2] = {a[0] + t[1] * (b[0] - a[0]), a[1] + t[1] * (b[1] - a[1])};
-                mark_segment(job, f, from, to, 4 * s[0].err);
+                continue;
             }
-            continue;
+            segments = segments > 0 && segment_clip(&s[0], &other);
         }
         for (int k = 0; k < segments; k++) {
-            mark_segment(job, f, s[k].a, s[k].b, 4 * s[k].err);
+            mark_segment(job, f, &s[k]);
         }
     }
 }
@@ -236,9 +234,8 @@ static double pixel_area(const drawn_facet *f, uint32_t x, uint32_t y)
 /* Is the facet certainly hidden in the whole pixel by one that covers all of it? */
 static int pixel_hidden(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
-    const double height = f->plane.c + f->plane.dx * (x + 0.5) + f->plane.dy * (y + 0.5);
     return (double)job->raster->occluder[pixel_index(job, x, y)] >
-           lrcsi_min(f->high, height + f->rise);
+           lrcsi_min(f->high, lrcsi_plane_height(&f->plane, x, y) + f->rise);
 }
 
 enum { PIXEL_HIDDEN, PIXEL_VISIBLE, PIXEL_UNRESOLVED };
@@ -296,14 +293,11 @@ static pixel_sums facet_pixels(visible_job *job, uint32_t facet, const lrcsi_cro
         const uint32_t *owner = r->owner + pixel_index(job, 0, y);
         const unsigned char *mixed = job->mixed + pixel_index(job, 0, y);
         const lrcsi_pixel_span touched = job->row[y].touched;
-        lrcsi_pixel_span full = job->row[y].full;
-        if (full.x0 == full.x1) { /* an empty span may lie anywhere */
-            full = (lrcsi_pixel_span){touched.x1, touched.x1};
-        }
-        for (uint32_t x = touched.x0;; x++) {
-            x = x == full.x0 ? full.x1 : x;
-            if (x >= touched.x1) {
-                break;
+        const lrcsi_pixel_span full = job->row[y].full;
+        for (uint32_t x = touched.x0; x < touched.x1; x++) {
+            if (lrcsi_span_has(full, x)) {
+                x = full.x1 - 1; /* the mixed ones of these follow below */
+                continue;
             }
             visible -= owner[x] == facet;
             int visibility = pixel_visibility(job, &f, x, y);
@@ -338,9 +332,9 @@ static void sampled_area(lrcsi_sample_pool *pool, const pixel_sums *sums, uint32
     const double pixel = raster->pixel * raster->pixel;
     const lrcsi_visible_fraction fraction = lrcsi_visible_fraction_facet(pool, facet);
     lrcsi_sampling_error error = {HUGE_VAL, 0};
-    if (!raster->undecided[facet] && fraction.pooled) {
+    if (!raster->order_undecided[facet] && fraction.pooled) {
         error = lrcsi_sampling_error_pooled(raster, facet, fraction.longest, fraction.fraction);
-    } else if (!raster->undecided[facet]) {
+    } else if (!raster->order_undecided[facet]) {
         error = lrcsi_sampling_error_facet(pool->decisions->classification->component, raster,
                                            facet, crossings);
     }
@@ -357,51 +351,51 @@ size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size)
     size_t need = lrcsi_work_bytes(lrcsi_work_square(size), 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(visible_row)));
     need = lrcsi_work_add(need, lrcsi_visible_fraction_need(prepared));
-    return lrcsi_work_add(need, lrcsi_raster_undecided_need(prepared, size));
+    return lrcsi_work_add(need, lrcsi_raster_need(prepared, size, 1));
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
 int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size,
-                                     lrcs_progress *progress, lrcs_work *work, lrcsi_raster *raster,
-                                     lrcsi_visible_area *visible, int *undecided)
+                                     lrcs_progress *progress, lrcs_work *work,
+                                     lrcsi_visible_area *visible, int *depth_undecided)
 {
     const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
-    int status = lrcsi_raster_make_undecided(view, size, decisions->answer, progress, work, raster);
-    const size_t end = work->used;
-    visible_job job = {.raster = raster};
+    lrcsi_raster raster;
+    int status = lrcsi_raster_make(view, size, decisions->answer, progress, work, &raster);
+    visible_job job = {.raster = &raster};
     lrcsi_crossings search = decisions->search;
     lrcsi_sample_pool pool;
     if (status == LRCS_OK) {
         job.mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
         job.row = lrcsi_work_take(work, size, sizeof *job.row);
-        status = job.mixed && job.row ? lrcsi_visible_fraction_make(decisions, raster, work, &pool)
+        status = job.mixed && job.row ? lrcsi_visible_fraction_make(decisions, &raster, work, &pool)
                                       : LRCS_E_MEMORY;
     }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    lrcsi_visible_areas_from_answers(view, decisions->answer, visible);
-    *undecided = memchr(raster->undecided, 1, count) != NULL;
+    lrcsi_query_areas(view, decisions->answer, visible);
+    *depth_undecided = memchr(raster.order_undecided, 1, count) != NULL;
     for (uint32_t f = 0;
-         (f = lrcsi_marks_next(decisions->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+         (f = lrcsi_marks_next(decisions->answer, f, count, LRCSI_QUERY_NO_ANSWER)) < count; f++) {
         if (!classification->undecided[f]) { /* uniform, but its query gave no answer */
             double area = lrcsi_view_projected(view, f);
             visible[f] = (lrcsi_visible_area){0.5 * area, 0, area, 0.5 * area, 0};
-            *undecided = 1;
+            *depth_undecided = 1;
             continue;
         }
         const lrcsi_crossings crossings = lrcsi_decisions_crossings(decisions, f, &search);
         pixel_sums sums = {0, 0, 0, 0};
-        if (!raster->undecided[f]) {
+        if (!raster.order_undecided[f]) {
             sums = facet_pixels(&job, f, &crossings);
         }
         sampled_area(&pool, &sums, f, &crossings, &visible[f]);
     }
     lrcsi_visible_fraction_correct(&pool, visible);
-    work->used = end;
+    work->used = mark;
     return LRCS_OK;
 }

@@ -73,7 +73,7 @@ static uint32_t samples_add_neighbours(const lrcsi_sample_pool *pool, uint32_t f
                 continue;
             }
             count++;
-            if (answer == LRCSI_QUERY_UNDECIDED) {
+            if (answer == LRCSI_QUERY_NO_ANSWER) {
                 *owned += raster->owned[other];
                 *covered += raster->covered[other];
             } else {
@@ -148,7 +148,7 @@ static double fraction_of_point(const lrcsi_sample_pool *pool, uint32_t facet)
     double point[3];
     random_point(pool->raster, facet, point);
     int answer = lrcsi_query_point(&pool->decisions->facets, facet, point, NULL);
-    if (answer == LRCSI_QUERY_UNDECIDED) {
+    if (answer == LRCSI_QUERY_NO_ANSWER) {
         answer = lrcsi_query_facet(&pool->decisions->facets, facet, NULL);
     }
     return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : 0.5;

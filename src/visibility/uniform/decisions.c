@@ -53,7 +53,7 @@ int lrcsi_decisions_make(lrcsi_classification *classification, lrcs_work *work,
     uint32_t used = 0; /* of crossing[] */
     d.listed = count;
     for (uint32_t f = 0; (f = lrcsi_marks_next(undecided, f, count, 1)) < count; f++) {
-        if (lrcsi_query_screened(classification, &d.facets, f, NULL, &d.search)) {
+        if (lrcsi_query_hidden_by_component(classification, &d.facets, f, NULL, &d.search)) {
             d.answer[f] = LRCSI_QUERY_HIDDEN;
             continue;
         }

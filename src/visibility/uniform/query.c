@@ -155,15 +155,15 @@ static int line_answer(query_line *line)
         if (nearer > 0) {
             return LRCSI_QUERY_HIDDEN;
         }
-        answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
+        answer = nearer == 0 ? LRCSI_QUERY_NO_ANSWER : answer;
     }
-    return lrcsi_meter_spent(line->meter) ? LRCSI_QUERY_UNDECIDED : answer;
+    return lrcsi_meter_spent(line->meter) ? LRCSI_QUERY_NO_ANSWER : answer;
 }
 
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *meter)
 {
     query_line line;
-    return line_start(&line, facets, facet, meter) ? line_answer(&line) : LRCSI_QUERY_UNDECIDED;
+    return line_start(&line, facets, facet, meter) ? line_answer(&line) : LRCSI_QUERY_NO_ANSWER;
 }
 
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3],
@@ -172,7 +172,7 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     query_line line = {.grid = facets, .meter = meter, .facet = facet, .sense = 1};
     memcpy(line.point, point, sizeof line.point);
     if (!lrcsi_sample_covers(facets->view, facet, point)) {
-        return LRCSI_QUERY_UNDECIDED;
+        return LRCSI_QUERY_NO_ANSWER;
     }
     line_find_buckets(&line);
     return line_answer(&line);
@@ -232,12 +232,12 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
         }
         for (uint32_t f = start; f < (one_region ? start + 1 : end); f++) {
             if (undecided[f]) {
-                answer[f] = LRCSI_QUERY_UNDECIDED;
+                answer[f] = LRCSI_QUERY_NO_ANSWER;
             } else if (region[f] != f) {
                 answer[f] = answer[region[f]];
             } else if (lrcsi_view_casts(classification->view, f)) {
                 answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
-                unanswered += answer[f] == LRCSI_QUERY_UNDECIDED;
+                unanswered += answer[f] == LRCSI_QUERY_NO_ANSWER;
             }
         }
         if (one_region) {
@@ -250,7 +250,7 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
                                    NULL, work, facets);
     }
     for (uint32_t f = 0; unanswered > 0 && f < count && status == LRCS_OK; f++) {
-        if (!undecided[f] && answer[f] == LRCSI_QUERY_UNDECIDED) {
+        if (!undecided[f] && answer[f] == LRCSI_QUERY_NO_ANSWER) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
         }
     }
@@ -292,8 +292,8 @@ static int component_covers(lrcsi_classification *classification, uint32_t compo
     return 1;
 }
 
-int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
-                         uint32_t facet, lrcsi_meter *meter, lrcsi_crossings *crossings)
+int lrcsi_query_hidden_by_component(lrcsi_classification *classification, const lrcsi_grid *facets,
+                                    uint32_t facet, lrcsi_meter *meter, lrcsi_crossings *crossings)
 {
     query_line line;
     if (!line_start(&line, facets, facet, meter)) {
@@ -315,4 +315,17 @@ int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid 
         failed = classification->component[other];
     }
     return 0;
+}
+
+/* --- areas ------------------------------------------------------------------------------------ */
+
+void lrcsi_query_areas(const lrcsi_view *view, const unsigned char *answer,
+                       lrcsi_visible_area *visible)
+{
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        if (answer[f] != LRCSI_QUERY_NO_ANSWER) {
+            double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
+            visible[f] = lrcsi_visible_area_exact(area);
+        }
+    }
 }

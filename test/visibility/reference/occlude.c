@@ -367,7 +367,7 @@ static lrcsi_visible_area answered_area(const ref_occluding *o, uint32_t facet)
     if (o->uniform[facet] == LRCSI_QUERY_HIDDEN) {
         return (lrcsi_visible_area){0, 0, 0, 0, 0};
     }
-    if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
+    if (o->uniform[facet] == LRCSI_QUERY_NO_ANSWER) {
         return ref_occlude_unknown(o->classification->view, facet);
     }
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
@@ -392,7 +392,7 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
         return LRCS_OK;
     }
     o->undecided =
-        !lrcsi_query_screened(classification, &o->cover.facets, facet, NULL, &o->crossings);
+        !lrcsi_query_hidden_by_component(classification, &o->cover.facets, facet, NULL, &o->crossings);
     int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
@@ -475,7 +475,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
     int status = ref_occlude_make(classification, work, &o);
     *too_little = 0;
     if (status == LRCS_OK) {
-        lrcsi_visible_areas_from_answers(view, o.uniform, visible);
+        lrcsi_query_areas(view, o.uniform, visible);
     }
     /* 1. If many facets are undecided, all of them together, by cells of the view plane. */
     unsigned char *found = lrcsi_work_take_zero(work, view->prepared->scene->facet_count, 1);
@@ -491,7 +491,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
         int parted = classification->undecided[f] && !found[f];
         if (parted && ref_occlude_open(&o, f) == LRCS_OK) {
             visible[f] = ref_occlude_area(&o);
-        } else if (parted || (o.uniform[f] == LRCSI_QUERY_UNDECIDED && !found[f])) {
+        } else if (parted || (o.uniform[f] == LRCSI_QUERY_NO_ANSWER && !found[f])) {
             visible[f] = ref_occlude_unknown(view, f);
             *too_little += (uint32_t)parted;
         }
