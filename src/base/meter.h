@@ -27,6 +27,12 @@ static inline int lrcsi_meter_take(lrcsi_meter *meter, uint64_t steps)
     return 1;
 }
 
+/* The steps that may still be taken; UINT64_MAX without a limit. */
+static inline uint64_t lrcsi_meter_left(const lrcsi_meter *meter)
+{
+    return !meter ? UINT64_MAX : meter->spent ? 0 : meter->limit - meter->taken;
+}
+
 static inline int lrcsi_meter_spent(const lrcsi_meter *meter)
 {
     return meter && meter->spent;

@@ -26,7 +26,7 @@ static lrcsi_clip_sides sides;
 static void facet_set(uint32_t i, double x0, double y0, double x1, double y1, double x2, double y2)
 {
     lrcsi_cells_facet *f = &facet[i];
-    *f = (lrcsi_cells_facet){.x = {x0, x1, x2}, .y = {y0, y1, y2}, .owner = i};
+    *f = (lrcsi_cells_facet){.x = {x0, x1, x2}, .y = {y0, y1, y2}, .facet = i};
     for (int k = 0; k < 3; k++) {
         const double p[2] = {f->x[k], f->y[k]};
         const double q[2] = {f->x[(k + 1) % 3], f->y[(k + 1) % 3]};

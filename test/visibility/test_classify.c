@@ -23,7 +23,7 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     assert_int_equal(lrcsi_crossings_make(&classification.search, &work, &crossings), LRCS_OK);
-    lrcsi_classify_regions(&classification, region_of);
+    lrcsi_events_join(classification.view, &classification.joinable, region_of);
     assert_int_equal(lrcsi_grid_facets(&classification.search.grid, &classification.search.boxes,
                                        NULL, &work, &facets),
                      LRCS_OK);

@@ -135,7 +135,8 @@ static void samples_agree_with_integers(void **state)
             if (!classification.undecided[f]) {
                 check_all_of_it(f, answer[f] == LRCSI_QUERY_HIDDEN);
                 uniform++;
-            } else if (lrcsi_query_hidden_by_component(&classification, &facets, f, NULL, &crossings)) {
+            } else if (lrcsi_query_hidden_by_component(&classification, &facets, f, NULL,
+                                                       &crossings)) {
                 check_all_of_it(f, 1);
                 screened++;
             }

@@ -346,7 +346,6 @@ static void make_record(lrcsi_blocks *b, uint32_t facet, uint32_t record)
             d, lrcsi_cells_connected(d->view, b->coplanar, facet,
                                      lrcsi_cells_side_number(d->view, facet, k)));
     }
-    f->owner = record;
     d->facet_err = lrcsi_max(d->facet_err, f->err);
     d->wanted[record] = b->wanted[facet];
     d->area[record] = b->area[facet];

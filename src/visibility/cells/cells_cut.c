@@ -193,11 +193,12 @@ static void charge_cut(lrcsi_division *d, uint32_t index, double low, double hig
 {
     const lrcsi_cells_segment *e = strip->along;
     const lrcsi_cells_facet *f = &d->facet[index];
+    const uint32_t owner = d->record ? index : f->facet; /* as segments name it */
     double far = f->err + strip->tolerance;
     double beyond = STRIP_OVERHANG * strip->width + far;
     double along[2];
     double wide = lrcsi_min(high + far, strip->width) - lrcsi_max(low - far, -strip->width);
-    if (!e->contact && (e->owner[0] == f->owner || e->owner[1] == f->owner)) {
+    if (!e->contact && (e->owner[0] == owner || e->owner[1] == owner)) {
         wide = lrcsi_min(wide, strip->width);
     }
     corners_along(f, e->line, e->end[0], along);

@@ -25,7 +25,6 @@ typedef struct lrcsi_cells_facet {
     uint32_t neighbour[3];  /* the record of the facet that continues it across each side; 0: that
                                facet is not in the block; LRCS_NONE: there is none */
     uint32_t facet;         /* its number in the scene */
-    uint32_t owner;         /* the number by which segments name it (lrcsi_cells_segment) */
     int sliver;             /* its sides are those of a band that contains it */
     int unknown_contact;    /* one of its contacts could not be computed */
 } lrcsi_cells_facet;
@@ -73,8 +72,7 @@ const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t verte
 /* The line through two vertices. Returns their distance, with a relative error of 4 u. */
 double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3]);
 
-/* Makes the record of a facet for the current block. Not set: its neighbours, its number as an
-   owner. */
+/* Makes the record of a facet for the current block, without its neighbours. */
 void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_facet *f);
 
 /* Bounds of a facet's z at a point that it may cover. */

@@ -83,7 +83,7 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
     lrcsi_target_refine(&cells->target, &cells->needle, &cells->frame);
 
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .facet = facet, .owner = facet};
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .facet = facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell.shape);
     lrcsi_clip_box(&cell.shape, f->low, f->high);
     for (int k = 0; k < 3; k++) {
@@ -156,9 +156,6 @@ static int process_facet_cell(lrcsi_facet_cells *cells, lrcsi_cell *cell)
 
     /* 1. A sample. */
     lrcsi_facet_cells_sample_take(cells, cell, &s, &sample);
-    if (sample.hidden <= 0) {
-        sample.ends = lrcsi_facet_cells_choose(cells, cell, sample.at, LRCS_NONE, &sample.cut);
-    }
 
     /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
      */

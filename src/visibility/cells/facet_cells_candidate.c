@@ -168,16 +168,16 @@ static int add_facet_contact(lrcsi_facet_cells *cells, uint32_t other)
     lrcsi_division *d = &cells->division;
     lrcsi_contact contact;
     int side = lrcsi_sample_side(d->view, other, cells->facet);
-    int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&cells->frame, other, &contact);
-    cells->order[other] = side > 0   ? LRCSI_ORDER_FRONT
-                          : side < 0 ? LRCSI_ORDER_BEHIND
-                                     : LRCSI_ORDER_NOT_COMPUTED;
-    if (side == 0 && kind != LRCSI_CONTACT_POINT) {
-        cells->order[other] = kind == LRCSI_CONTACT_FLAT      ? LRCSI_ORDER_FRONT
-                              : kind == LRCSI_CONTACT_UNKNOWN ? LRCSI_ORDER_UNDECIDED
-                                                              : LRCSI_ORDER_CONTACT;
-        cells->contact[other] = d->segment_count;
+    if (side < 0) {
+        cells->order[other] = LRCSI_ORDER_BEHIND;
+        return 1;
     }
+    int kind = lrcsi_contact_find(&cells->frame, other, &contact);
+    int is_line = kind != LRCSI_CONTACT_POINT && kind != LRCSI_CONTACT_UNKNOWN;
+    cells->order[other] = side > 0 || kind == LRCSI_CONTACT_FLAT ? LRCSI_ORDER_FRONT
+                          : is_line                              ? LRCSI_ORDER_CONTACT
+                                                                 : LRCSI_ORDER_UNDECIDED;
+    cells->contact[other] = d->segment_count; /* read of CONTACT only */
     if (kind == LRCSI_CONTACT_POINT) {
         return 1;
     }

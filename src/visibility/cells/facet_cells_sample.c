@@ -20,9 +20,12 @@
    in any case. */
 #define FAR_RATIO 64
 
-uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
-                                  const double at[2], uint32_t component,
-                                  const lrcsi_cells_segment **best)
+/* The segment of a cell along which a component ends or meets f, or any segment if it is LRCS_NONE,
+   whose line is nearest to the point `at`: *best, NULL if there is none. Returns how many there are.
+   A component is a set of marks: the entries of its facets in component[] are its number. */
+static uint32_t component_cut(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
+                              const double at[2], uint32_t component,
+                              const lrcsi_cells_segment **best)
 {
     const lrcsi_marks of_component = {cells->classification->component, component};
     uint32_t count = 0;
@@ -30,12 +33,10 @@ uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_ce
     *best = NULL;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &cells->division.segment[cell->segment[i]];
-        int matters = component == LRCS_NONE;
-        if (!matters) {
-            matters = e->contact
+        int matters = component == LRCS_NONE ? 1
+                      : e->contact
                           ? lrcsi_marked(&of_component, e->owner[1])
                           : lrcsi_division_segment_marked(&cells->division, e, &of_component);
-        }
         if (matters) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
@@ -159,7 +160,7 @@ static int sides_cover(lrcsi_facet_cells *cells, const lrcsi_facet_cells_sample 
 {
     const lrcsi_needle *needle = cells->frame.needle;
     const lrcsi_view *view = cells->division.view;
-    if (!needle && sample->test == LRCSI_TEST_EXACT) {
+    if (sample->test == LRCSI_TEST_EXACT) { /* not in a needle */
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
     if (sides[0].err < 0) {
@@ -209,20 +210,21 @@ typedef struct sample_answer {
     uint32_t last; /* the component last found in front of f; LRCS_NONE: none */
 } sample_answer;
 
-/* Includes one candidate in the answer. Boxes exclude most candidates. The depth order, which takes
-   longest, is computed last. */
+/* Includes one candidate in the answer. `sides`: where its sides are kept; NULL: they are not. Boxes
+   exclude most candidates. The depth order, which takes longest, is computed last. */
 static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                            uint32_t other, lrcsi_facet_cells_side sides[3],
                            lrcsi_facet_cells_sample *sample, sample_answer *answer)
 {
     uint32_t component = cells->classification->component[other];
     unsigned char *order = &cells->order[other];
+    lrcsi_facet_cells_side not_kept[3] = {{.err = -1}};
     if (*order == LRCSI_ORDER_BEHIND ||
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
         (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
         return;
     }
-    int covered = sides_cover(cells, sample, other, sides, tolerance);
+    int covered = sides_cover(cells, sample, other, sides ? sides : not_kept, tolerance);
     if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
         *order = (unsigned char)lrcsi_facet_cells_order(cells, other);
     }
@@ -235,51 +237,12 @@ static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, dou
         return;
     }
     const lrcsi_cells_segment *cut;
-    uint32_t ends = lrcsi_facet_cells_choose(cells, cell, sample->at, component, &cut);
+    uint32_t ends = component_cut(cells, cell, sample->at, component, &cut);
     if (ends < sample->ends) {
         sample->ends = ends;
         sample->cut = cut;
     }
     *answer = (sample_answer){1, component};
-}
-
-/* The same for a candidate of which the sides are not kept. */
-static void sample_compare_once(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
-                                uint32_t other, lrcsi_facet_cells_sample *sample,
-                                sample_answer *answer)
-{
-    lrcsi_facet_cells_side made[3] = {{.err = -1}};
-    sample_compare(cells, cell, tolerance, other, made, sample, answer);
-}
-
-/* Compares all candidates. */
-static void sample_compare_all(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
-                               lrcsi_facet_cells_sample *sample, sample_answer *answer)
-{
-    for (uint32_t i = 0; i < cells->candidate_count && sample->ends > 0; i++) {
-        if (i < cells->side_room) {
-            sample_compare(cells, cell, tolerance, cells->candidate[i], cells->side[i], sample,
-                           answer);
-        } else {
-            sample_compare_once(cells, cell, tolerance, cells->candidate[i], sample, answer);
-        }
-    }
-}
-
-/* Compares those that the grid lists at the sample. */
-static void sample_compare_listed(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
-                                  double tolerance, lrcsi_grid_rect buckets,
-                                  lrcsi_facet_cells_sample *sample, sample_answer *answer)
-{
-    const lrcsi_grid *grid = &cells->grid;
-    lrcsi_grid_items items;
-    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
-        for (uint32_t i = items.from; i < items.to && sample->ends > 0; i++) {
-            if (lrcsi_facet_cells_is_candidate(cells, grid->item[i])) {
-                sample_compare_once(cells, cell, tolerance, grid->item[i], sample, answer);
-            }
-        }
-    }
 }
 
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided, or the meter is spent. If it is
@@ -291,22 +254,29 @@ static void sample_compare_listed(lrcsi_facet_cells *cells, const lrcsi_cell *ce
 static int sample_is_hidden(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                             lrcsi_facet_cells_sample *sample)
 {
-    const lrcsi_grid_rect buckets = lrcsi_grid_buckets(&cells->grid, &sample->box);
+    const lrcsi_grid *grid = &cells->grid;
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &sample->box);
     lrcsi_meter *meter = cells->division.meter;
     const uint32_t all = cells->candidate_count;
     uint32_t listed = LRCS_NONE;
     sample_answer answer = {0, LRCS_NONE};
     sample->ends = LRCS_NONE;
     if (all > cells->side_room && lrcsi_meter_take(meter, buckets.y1 - buckets.y0)) {
-        listed = lrcsi_grid_listed(&cells->grid, buckets);
+        listed = lrcsi_grid_listed(grid, buckets);
     }
     if (!lrcsi_meter_take(meter, listed < all ? listed : all)) {
         return -1;
     }
-    if (listed < all) {
-        sample_compare_listed(cells, cell, tolerance, buckets, sample, &answer);
-    } else {
-        sample_compare_all(cells, cell, tolerance, sample, &answer);
+    for (uint32_t i = 0; i < all && listed >= all && sample->ends > 0; i++) {
+        sample_compare(cells, cell, tolerance, cells->candidate[i],
+                       i < cells->side_room ? cells->side[i] : NULL, sample, &answer);
+    }
+    for (lrcsi_grid_items items; listed < all && lrcsi_grid_next_row(grid, &buckets, &items);) {
+        for (uint32_t i = items.from; i < items.to && sample->ends > 0; i++) {
+            if (lrcsi_facet_cells_is_candidate(cells, grid->item[i])) {
+                sample_compare(cells, cell, tolerance, grid->item[i], NULL, sample, &answer);
+            }
+        }
     }
     return answer.hidden;
 }
@@ -339,11 +309,12 @@ void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *c
     if (hidden < 0) {
         *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
-        sample_unproject(cells, sample);
-        sample->test = LRCSI_TEST_GUESSED;
         sample_place(cells, sample);
         guess = sample_is_hidden(cells, cell, s->tolerance, sample) > 0;
     }
     sample->hidden = hidden;
     sample->guess = guess;
+    if (hidden <= 0) {
+        sample->ends = component_cut(cells, cell, sample->at, LRCS_NONE, &sample->cut);
+    }
 }

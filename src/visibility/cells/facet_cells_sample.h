@@ -21,22 +21,16 @@ typedef struct lrcsi_facet_cells_sample {
     lrcsi_view_box box; /* around it in the view; its depth does not count */
     int hidden;         /* is f hidden there? 1 yes, 0 no, -1 undecided */
     int guess;          /* the same if it is decided; else 1 if f is probably hidden, 0 if not */
-    /* If f is hidden: */
-    uint32_t ends;                  /* of the components in front of f, the fewest segments of the
-                                       cell at which one ends or meets f */
-    const lrcsi_cells_segment *cut; /* one of these segments, if there is any */
+    uint32_t
+        ends; /* the number of segments along which the cell may be cut: if f is hidden, those at
+                      which a component in front of f ends or meets f, of the component with the
+                      fewest; otherwise all */
+    const lrcsi_cells_segment *cut; /* the one of these whose line passes nearest to the sample, so
+                                       that both parts are of similar size; NULL: there is none */
 } lrcsi_facet_cells_sample;
 
 /* Takes samples in the cell until one is decided, and returns the last one. */
 void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                                    const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample);
-
-/* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
-   are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
-   or meets f count.
-   Returns how many there are to choose from. */
-uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
-                                  const double at[2], uint32_t component,
-                                  const lrcsi_cells_segment **best);
 
 #endif

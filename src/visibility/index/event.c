@@ -7,6 +7,7 @@
 
 #include "base/disjoint.h"
 #include "base/work.h"
+#include "visibility/index/marks.h"
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
@@ -26,19 +27,6 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part,
 
 /* --- all edges -------------------------------------------------------------------------------- */
 
-/* One bit for each edge, so that events are listed in order, each once, with little memory. */
-enum { MARK_BITS = 32 };
-
-static size_t mark_words(const lrcs_prepared *p)
-{
-    return ((size_t)p->topology.edge_count + MARK_BITS - 1) / MARK_BITS;
-}
-
-static void mark_edge_event(uint32_t *mark, uint32_t edge)
-{
-    mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
-}
-
 /* Do all facets of the meshlets around a meshlet have the same sign as all of its own facets? */
 static int meshlet_surrounded(const lrcs_prepared *p, const lrcsi_facet_signs *cast,
                               uint32_t meshlet)
@@ -57,7 +45,7 @@ static int meshlet_surrounded(const lrcs_prepared *p, const lrcsi_facet_signs *c
 /* Marks events among the plain edges: those of facets of which at least one can hide others, and
    that do not continue each other. A meshlet whose facets all have the same sign as those around
    it has none. */
-static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, uint32_t *mark)
+static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, unsigned char *mark)
 {
     const signed char *cast = signs->facet;
     uint32_t count = p->scene->facet_count;
@@ -70,7 +58,7 @@ static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, u
                 uint32_t other = p->neighbours.facet[f].corner[k];
                 if (other >= start && other < end && cast[f] != 0 &&
                     !lrcsi_event_continues(cast[f], cast[other])) {
-                    mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
+                    mark[p->topology.facet_edge[f].corner[k]] = 1;
                 }
             }
         }
@@ -82,7 +70,7 @@ static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, u
             const lrcsi_meshlet_side *side = &p->meshlets.side[i];
             if ((cast[side->facet] | cast[side->other]) != 0 &&
                 !lrcsi_event_continues(cast[side->facet], cast[side->other])) {
-                mark_edge_event(mark, side->edge);
+                mark[side->edge] = 1;
             }
         }
     }
@@ -90,8 +78,8 @@ static void mark_plain(const lrcs_prepared *p, const lrcsi_facet_signs *signs, u
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_add(lrcsi_work_bytes(mark_words(prepared), sizeof(uint32_t)),
-                          lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
+    const size_t edges = prepared->topology.edge_count;
+    return lrcsi_work_add(lrcsi_work_bytes(edges, 1), lrcsi_work_bytes(edges, sizeof(uint32_t)));
 }
 
 /* 1. Takes room for as many events as there are edges. 2. Marks events among plain edges, then
@@ -101,9 +89,10 @@ int lrcsi_events_make(const lrcsi_view *view, lrcs_work *work, lrcsi_events *eve
     const lrcs_prepared *p = view->prepared;
     const lrcsi_neighbours *neighbours = &p->neighbours;
     size_t start = work->used;
-    uint32_t *mark = lrcsi_work_take_zero(work, mark_words(p), sizeof *mark);
+    const uint32_t count = p->topology.edge_count;
+    unsigned char *mark = lrcsi_work_take_zero(work, count, 1); /* edge: 1 if it is an event */
     size_t end = work->used;
-    uint32_t *edge = lrcsi_work_take(work, p->topology.edge_count, sizeof *edge);
+    uint32_t *edge = lrcsi_work_take(work, count, sizeof *edge);
     if (!mark || !edge) {
         work->used = start;
         return LRCS_E_MEMORY;
@@ -113,16 +102,12 @@ int lrcsi_events_make(const lrcsi_view *view, lrcs_work *work, lrcsi_events *eve
         lrcsi_edge_facets on;
         if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, &on) ==
             LRCSI_EDGE_EVENT) {
-            mark_edge_event(mark, neighbours->irregular[i]);
+            mark[neighbours->irregular[i]] = 1;
         }
     }
     events->count = 0;
-    for (size_t w = 0; w < mark_words(p); w++) {
-        uint32_t e = (uint32_t)(w * MARK_BITS);
-        for (uint32_t left = mark[w]; left != 0; left >>= 1) {
-            edge[events->count] = e++;
-            events->count += left & 1;
-        }
+    for (uint32_t e = 0; (e = lrcsi_marks_next(mark, e, count, 1)) < count; e++) {
+        edge[events->count++] = e;
     }
     work->used = end;
     events->edge = lrcsi_work_take(work, events->count, sizeof *edge);

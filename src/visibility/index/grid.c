@@ -14,8 +14,6 @@
 /* The largest number of buckets along a side: their numbers must fit 16 bits, and the lists of so
    many fit ordinary memory. */
 #define MAX_SIZE 2048
-/* Buckets to be read are marked by one bit each. */
-#define NEEDED_BITS 32u
 
 /* --- the grid --------------------------------------------------------------------------------- */
 
@@ -35,9 +33,7 @@ size_t lrcsi_grid_need(size_t buckets, size_t entries)
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t size = grid_size(facets);
-    size_t words = (size + NEEDED_BITS - 1) / NEEDED_BITS;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * size, sizeof(uint32_t)),
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(lrcsi_work_square(grid_size(facets)), 1),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_BUCKETS * facets));
 }
@@ -172,83 +168,42 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 /* A grid of one bucket lists each facet once, so the loop ends. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
-    uint32_t count = grid->view->prepared->scene->facet_count;
-    for (int fits = 0;; fits++) {
+    const lrcs_prepared *p = grid->view->prepared;
+    for (int changed = 0;; changed = 1) {
         uint64_t filled = 0;
         uint64_t facets = 0;
-        for (uint32_t f = 0; f < count; f++) {
-            if (boxes->state[f / LRCSI_MESHLET_FACETS] != LRCSI_BOXES_FACETS) {
-                f += LRCSI_MESHLET_FACETS - 1;
-            } else if (lrcsi_view_casts(grid->view, f)) {
-                lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
-                filled += (uint64_t)(buckets.x1 - buckets.x0) * (buckets.y1 - buckets.y0);
-                facets++;
+        for (uint32_t m = 0; m < p->meshlets.count; m++) {
+            uint32_t start = m * LRCSI_MESHLET_FACETS;
+            uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+            end = boxes->state[m] == LRCSI_BOXES_FACETS ? end : start;
+            for (uint32_t f = start; f < end; f++) {
+                if (lrcsi_view_casts(grid->view, f)) {
+                    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
+                    filled += (uint64_t)(buckets.x1 - buckets.x0) * (buckets.y1 - buckets.y0);
+                    facets++;
+                }
             }
         }
         if (filled <= LRCSI_GRID_FACET_BUCKETS * facets) {
-            return fits > 0;
+            return changed;
         }
         grid_coarsen(grid);
     }
 }
 
-/* The buckets whose lists will be read, one bit each; each row begins with a new word. bit NULL:
-   all buckets. Facets that meet none of these buckets are not listed. */
-typedef struct needed_buckets {
-    uint32_t *bit;
-    size_t words; /* of a row */
-} needed_buckets;
-
-/* The bits of one word of a row for buckets x0 .. x1 - 1. */
-static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
-{
-    uint32_t bits = ~(uint32_t)0;
-    if (word == x0 / NEEDED_BITS) {
-        bits &= ~(uint32_t)0 << x0 % NEEDED_BITS;
-    }
-    if (word == (x1 - 1) / NEEDED_BITS) {
-        bits &= ~(uint32_t)0 >> (NEEDED_BITS - 1 - (x1 - 1) % NEEDED_BITS);
-    }
-    return bits;
-}
-
-/* Marks these buckets. */
-static void needed_mark(const needed_buckets *needed, lrcsi_grid_rect buckets)
-{
-    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
-    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
-        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
-            needed->bit[y * needed->words + word] |= needed_bits(word, buckets.x0, buckets.x1);
-        }
-    }
-}
-
-/* Is any of these buckets marked? */
-static int needed_any(needed_buckets needed, lrcsi_grid_rect buckets)
-{
-    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
-    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
-        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
-            if ((needed.bit[y * needed.words + word] & needed_bits(word, buckets.x0, buckets.x1)) !=
-                0) {
-                return 1;
-            }
-        }
-    }
-    return 0;
-}
-
-/* Marks the buckets of the readers' boxes. */
+/* Marks the buckets of the readers' boxes, whose lists will be read: *needed has a byte for each
+   bucket; NULL without readers: all will be. Facets that meet none of these buckets are not listed.
+   */
 static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
-                       const lrcsi_grid_readers *readers, lrcs_work *work, needed_buckets *needed)
+                       const lrcsi_grid_readers *readers, lrcs_work *work, unsigned char **needed)
 {
-    *needed = (needed_buckets){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
+    *needed = NULL;
     if (!readers) {
         return LRCS_OK;
     }
-    needed->bit = lrcsi_work_take_zero(work, needed->words * grid->size, sizeof *needed->bit);
+    *needed = lrcsi_work_take_zero(work, grid_count(grid), 1);
     const lrcs_prepared *p = grid->view->prepared;
-    for (uint32_t m = 0; m < p->meshlets.count && needed->bit; m++) {
+    for (uint32_t m = 0; m < p->meshlets.count && *needed; m++) {
         uint32_t start = m * LRCSI_MESHLET_FACETS;
         uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
         if (boxes->state[m] == LRCSI_BOXES_NONE) {
@@ -261,16 +216,33 @@ static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
             if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, m);
-                needed_mark(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f)));
+                lrcsi_grid_rect r = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
+                for (uint32_t y = r.y0; y < r.y1; y++) {
+                    memset(*needed + (size_t)y * grid->size + r.x0, 1, (size_t)(r.x1 - r.x0));
+                }
             }
         }
     }
-    return needed->bit ? LRCS_OK : LRCS_E_MEMORY;
+    return *needed ? LRCS_OK : LRCS_E_MEMORY;
+}
+
+/* Is any of these buckets marked? */
+static int needed_any(const lrcsi_grid *grid, const unsigned char *needed, lrcsi_grid_rect buckets)
+{
+    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+        const unsigned char *row = needed + (size_t)y * grid->size;
+        for (uint32_t x = buckets.x0; x < buckets.x1; x++) { /* few: memchr would cost more */
+            if (row[x]) {
+                return 1;
+            }
+        }
+    }
+    return 0;
 }
 
 /* Lists the facets that meet buckets to be read, in order, and makes their boxes. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, needed_buckets needed,
+static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, const unsigned char *needed,
                          lrcs_work *work, uint32_t **facet, uint32_t *selected)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;
@@ -280,16 +252,16 @@ static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, needed_buck
     for (uint32_t start = 0; start < count && list; start += LRCSI_MESHLET_FACETS) {
         uint32_t meshlet = start / LRCSI_MESHLET_FACETS;
         if (boxes->state[meshlet] == LRCSI_BOXES_NONE ||
-            (needed.bit &&
-             !needed_any(needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
+            (needed &&
+             !needed_any(grid, needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
             continue;
         }
         lrcsi_boxes_open(boxes, meshlet);
         uint32_t end = lrcsi_meshlet_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
-                (!needed.bit ||
-                 needed_any(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f))))) {
+                (!needed ||
+                 needed_any(grid, needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }
@@ -327,7 +299,7 @@ int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_gr
     const lrcsi_view *view = like->view;
     uint64_t most = LRCSI_GRID_FACET_BUCKETS * ((uint64_t)view->front + view->back);
     lrcsi_grid g = *like;
-    needed_buckets needed;
+    unsigned char *needed;
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;

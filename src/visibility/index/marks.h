@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Marks of facets: found in order, or made so that all are cleared at once. */
+/* Marks of facets or edges: found in order, or made so that all are cleared at once. Below, a facet
+   stands for either. */
 #ifndef LRCSI_MARKS_H
 #define LRCSI_MARKS_H
 

@@ -81,10 +81,8 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     }
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
-        const lrcsi_view_vertex *p = &view->point[edge->low];
-        const lrcsi_view_vertex *q = &view->point[edge->high];
-        double high = lrcsi_max(p->x[2] + p->err, q->x[2] + q->err);
-        key[i] = depth_key(lrcsi_view_box_float(high * view->scale));
+        const uint32_t ends[2] = {edge->low, edge->high};
+        key[i] = depth_key(lrcsi_view_box_of(view, ends, 2).high[2]);
     }
     lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);
     work->used = mark;
@@ -226,11 +224,6 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
         }
     }
     return status;
-}
-
-void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region)
-{
-    lrcsi_events_join(classification->view, &classification->joinable, region);
 }
 
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)

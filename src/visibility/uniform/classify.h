@@ -23,7 +23,8 @@ typedef struct lrcsi_classification {
     unsigned char *undecided;  /* facet: 1 undecided; 0 uniform, or it has no area in this view */
     uint32_t undecided_count;
     lrcsi_facet_signs joinable; /* facet: as view->cast, but 0 if it is undecided, or if something
-                                   runs along one of its sides */
+                                   runs along one of its sides. Groups of such facets
+                                   (lrcsi_events_join) are the regions of uniform facets */
 } lrcsi_classification;
 
 /* Bytes at most. */
@@ -33,9 +34,5 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared);
    as undecided. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification);
-
-/* Finds regions of uniform facets: region[f] is the first facet of that of facet f; there are
-   lrcsi_meshlets_room entries. */
-void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region);
 
 #endif

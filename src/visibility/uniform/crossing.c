@@ -33,24 +33,16 @@ static int vertex_orientation(const lrcsi_view *view, uint32_t a, uint32_t b, ui
     if (c == a || c == b) {
         return 0;
     }
-    double err[3] = {view->point[a].err, view->point[b].err, view->point[c].err};
-    if (err[0] > err[1] + err[2]) {
-        uint32_t far = a;
-        double far_err = err[0];
+    if (view->point[a].err > view->point[b].err + view->point[c].err) {
+        const uint32_t far = a;
         a = b;
         b = c;
         c = far;
-        err[0] = err[1];
-        err[1] = err[2];
-        err[2] = far_err;
     }
-    const double *at = view->point[a].x;
-    const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
-    const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
-    double cross = lrcsi_vec2_cross(p, q);
-    if (fabs(cross) > lrcsi_view_cross_err(fabs(p[0]) + fabs(p[1]), err[0] + err[1],
-                                           fabs(q[0]) + fabs(q[1]), err[0] + err[2])) {
-        return cross > 0 ? 1 : -1;
+    const lrcsi_view_side line = lrcsi_view_side_of(view, a, b);
+    const int side = lrcsi_view_side_orient(&line, view->point[c].x, view->point[c].err);
+    if (side != LRCSI_VIEW_UNDECIDED) {
+        return side;
     }
     const lrcs_point *v = view->prepared->vertex;
     return lrcsi_exact_orient(v[a].x, v[b].x, v[c].x, view->direction);
@@ -67,7 +59,7 @@ static int vertex_orientation(const lrcsi_view *view, uint32_t a, uint32_t b, ui
    the sum of their 1-norms. A product v x w has an error of e (|v| + |w|) + 2 e^2, and by rounding
    of 2 u |v| |w|, which is below e |w| / 5, because e is at least 10 u |v|. So a sum of three has
    an error of 2.4 e size + 6 e^2, and adding them costs 2 u of their sum, below 0.4 e size. */
-static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint32_t p, uint32_t q)
+static int segment_crosses_filtered(const lrcsi_view *view, uint32_t facet, uint32_t p, uint32_t q)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     const double mirror = view->facing[facet];
@@ -108,7 +100,7 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, u
                            int *along)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    int crosses = segment_crosses_plainly(view, facet, p, q);
+    int crosses = segment_crosses_filtered(view, facet, p, q);
     if (crosses != LRCSI_VIEW_UNDECIDED) {
         return crosses;
     }
@@ -187,7 +179,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
     const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, &box);
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
-    const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
+    const uint64_t metered = lrcsi_meter_left(meter);
     const uint32_t allowed = metered < limit ? (uint32_t)metered : limit;
     const uint32_t mark = lrcsi_event_search_begin(search);
     uint32_t left = allowed;
@@ -200,8 +192,8 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     if (all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS) {
         lrcsi_grid_walk_limit(&walk, view->prepared->scene->facet[facet].corner, 3, 0);
     }
-    while (!more && lrcsi_grid_walk_next(&walk, &row)) {
-        for (uint32_t x = row.x0; x < row.x1 && !more; x++) {
+    while (!more && count < query->most && lrcsi_grid_walk_next(&walk, &row)) {
+        for (uint32_t x = row.x0; x < row.x1 && !more && count < query->most; x++) {
             const lrcsi_grid_items bucket = lrcsi_grid_row_items(grid, row.y, x, x + 1);
             for (uint32_t i = bucket.from; i < bucket.to && count < query->most; i++) {
                 lrcsi_event_box *event = &search->event[grid->item[i]];

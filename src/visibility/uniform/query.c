@@ -215,7 +215,7 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
     if (!region) {
         return LRCS_E_MEMORY;
     }
-    lrcsi_classify_regions(classification, region);
+    lrcsi_events_join(classification->view, &classification->joinable, region);
     const lrcsi_grid_readers readers = {undecided, region, &classification->joinable};
     int status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
                                    &readers, work, facets);
