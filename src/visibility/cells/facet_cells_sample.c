@@ -218,7 +218,8 @@ static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, dou
 {
     uint32_t component = cells->classification->component[other];
     unsigned char *order = &cells->order[other];
-    lrcsi_facet_cells_side not_kept[3] = {{.err = -1}};
+    lrcsi_facet_cells_side not_kept[3];
+    not_kept[0].err = -1;
     if (*order == LRCSI_ORDER_BEHIND ||
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
         (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
