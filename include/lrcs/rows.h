@@ -88,11 +88,16 @@ enum lrcs_host_tally_count {
 };
 typedef struct lrcs_host_tally {
     uint64_t rows, count[LRCS_HOST_TALLY_COUNTS];
-    double mean, square, bound; /* mean of sigma; sum of squared deviations; sum of bounds */
+    double sigma[2], bound[2]; /* sums over rows, each as the sum of two doubles */
+    double mean, square;       /* approximate mean of sigma; sum of squared deviations from it */
 } lrcs_host_tally;
 
 /* Adds a row. */
 void lrcs_host_tally_add(lrcs_host_tally *tally, const lrcs_host_row *row);
+
+/* The mean of sigma, m²; a bound on its error, from the rows' bounds. */
+double lrcs_host_tally_mean(const lrcs_host_tally *tally);
+double lrcs_host_tally_bound(const lrcs_host_tally *tally);
 
 /* The standard error of the mean, as if directions were drawn at random; NAN for fewer than two
    rows. */

@@ -102,7 +102,7 @@ static void bins_choose(const lrcs_distribution_row *row, lrcs_distribution *d)
 
 /* Percentiles and shares of sigma moved to an end. Sigma of every row lies between its ends, and a
    percentile increases with every sigma, so that the percentiles of the ends enclose it. If weights
-   are not whole numbers, two sums of n weights differ by at most 2 n u of the whole. */
+   are not all 1, two sums of n weights differ by at most 2 n u of the whole. */
 static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_row *end, int which,
                            lrcs_distribution *d)
 {
@@ -110,7 +110,10 @@ static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_r
     static const int opposite[LRCS_DISTRIBUTION_ENDS] = {
         LRCS_DISTRIBUTION_MOST, LRCS_DISTRIBUTION_VALUE, LRCS_DISTRIBUTION_LEAST,
         LRCS_DISTRIBUTION_HIGH, LRCS_DISTRIBUTION_LOW};
-    int whole = d->weight == (double)d->rows; /* all weights are 1, and sums are exact */
+    int whole = 1; /* all weights are 1, and sums are exact */
+    for (uint64_t i = 0; i < d->rows; i++) {
+        whole &= row[i].weight == 1.0;
+    }
     int side = which == LRCS_DISTRIBUTION_LEAST ? -1 : which == LRCS_DISTRIBUTION_MOST;
     double slack = whole ? 0.0 : side * 2.0 * (double)d->rows * LRCSI_U * d->weight;
     for (uint64_t i = 0; i < d->rows; i++) {

@@ -66,6 +66,25 @@ static void a_weight_of_2_is_a_row_twice(void **state)
     }
 }
 
+/* The first two weights are less than a quarter of all, but by less than rounding shows: the ends of
+   the 25th percentile enclose the third sigma. */
+static void weights_that_add_up_to_the_number_of_rows_are_no_whole_numbers(void **state)
+{
+    (void)state;
+    const double weight[4] = {0.5, 0.5 - 0x1p-54, 1.5, 1.5};
+    const double sigma[4] = {1, 2, 1000, 2000};
+    int quarter = 0;
+    for (uint32_t i = 0; i < 4; i++) {
+        row[i] = row_of(sigma[i], 0.0, weight[i], i);
+    }
+    assert_int_equal(lrcs_distribution_make(row, room, 4, &d), LRCS_OK);
+    while (d.percent[quarter] != 25) {
+        quarter++;
+    }
+    check_most(d.percentile_m2[quarter].at[LRCS_DISTRIBUTION_LEAST], 1000);
+    check_most(1000, d.percentile_m2[quarter].at[LRCS_DISTRIBUTION_MOST]);
+}
+
 /* Every sigma moves to a random place within its bound: no number leaves its ends. */
 static void ends_enclose_every_sigma_within_its_bound(void **state)
 {
@@ -170,6 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(percentiles_of_1_to_200_are_twice_the_percent),
         cmocka_unit_test(a_weight_of_2_is_a_row_twice),
+        cmocka_unit_test(weights_that_add_up_to_the_number_of_rows_are_no_whole_numbers),
         cmocka_unit_test(ends_enclose_every_sigma_within_its_bound),
         cmocka_unit_test(bins_hold_every_row),
         cmocka_unit_test(material_intervals_are_carried_through),

@@ -304,7 +304,7 @@ static void sweep_summary_print(const sweep_job *job)
             snprintf(spread, sizeof spread, "%.3g m2", lrcs_host_tally_error(tally));
         }
         fprintf(stderr, "notice: mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
-                tally->mean, spread, tally->bound / (double)tally->rows);
+                lrcs_host_tally_mean(tally), spread, lrcs_host_tally_bound(tally));
     }
     char missed[60];
     char estimated[80];

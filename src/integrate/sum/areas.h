@@ -43,7 +43,7 @@ static inline double lrcsi_areas_margin(const lrcsi_areas *areas, const lrcsi_vi
                                         uint32_t facet)
 {
     return lrcsi_flat_face_area(areas->face, view, facet) +
-           (areas->margins ? lrcsi_straight_margin_area(areas->margins, areas->visible, facet) : 0);
+           (areas->margins ? lrcsi_wall_margin_area(areas->margins, areas->visible, facet) : 0);
 }
 
 /* The visible area of a facet of given incidence. */

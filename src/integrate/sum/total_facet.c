@@ -169,14 +169,14 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     const lrcsi_proximity_band *band = run->band ? run->band->whole : NULL;
     lrcsi_part_set set = band ? band->parts[facet] : 0;
     int own = 1;
-    if (band && run->areas->margins && lrcsi_straight_margin(run->areas->margins, facet)) {
+    if (band && run->areas->margins && lrcsi_wall_margin_of(run->areas->margins, facet)) {
         set = band->margin[facet].causes;
     }
     if (band && lrcsi_flat_face_uses(run->areas->face, run->view, facet)) {
         const lrcsi_flat_face *face =
             &run->areas->face[run->view->prepared->scene->facet_part[facet]];
         set |= face->facet == facet ? face->causes : 0;
-        const unsigned sides = lrcsi_face_margin_sides(run->view, facet);
+        const unsigned sides = lrcsi_face_border_sides(run->view, facet);
         own = 0;
         for (int k = 0; k < 3; k++) {
             own |= ((sides >> k) & 1) != 0 && !lrcsi_band_side_is_free(band, facet, k);

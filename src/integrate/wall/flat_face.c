@@ -19,7 +19,7 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
     double with = 2 * whole->face[index].error; /* the sum of both errors, gain and loss */
     double without = 0;
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (!lrcsi_face_margin_applies(view, f)) {
+        if (!lrcsi_face_has_facet(view, f)) {
             continue;
         }
         if (whole->gain_aligned[f] < 0) {

@@ -21,7 +21,7 @@ static inline int lrcsi_flat_face_uses(const lrcsi_flat_face *face, const lrcsi_
                                        uint32_t facet)
 {
     return face && face[view->prepared->scene->facet_part[facet]].facet != LRCS_NONE &&
-           lrcsi_face_margin_applies(view, facet);
+           lrcsi_face_has_facet(view, facet);
 }
 
 /* What is to be added to the visible area of a facet: 0 for all but one of a face. */

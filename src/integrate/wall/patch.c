@@ -339,8 +339,9 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
         patch->diffuse_log += weight * at.diffuse * lrcsi_log1p(u).hi;
     }
     patch->rounding += weight * (1 + nu_err) *
-                       (at.error + at.glint * (err.glint + err.glint * err.glint + nu_err) +
-                        at.diffuse * (err.diffuse + err.diffuse * err.diffuse + nu_err));
+                           (at.error + at.glint * (err.glint + err.glint * err.glint + nu_err) +
+                            at.diffuse * (err.diffuse + err.diffuse * err.diffuse + nu_err)) +
+                       LRCSI_U * (patch->glint + patch->diffuse); /* of the additions */
     return 1;
 }
 

@@ -65,16 +65,16 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
     f.gain = fmin(less ? margin->gain : lrcsi_masked_gain(band, facet), f.hidden);
     f.loss = fmin(less ? margin->loss : lrcsi_masked_loss(band, facet), visible_most);
     f.visible = fmin(1, visible_most + fmin(lrcsi_masked_gain(band, facet), f.hidden));
-    if (margins && lrcsi_straight_margin(band, facet)) {
+    if (margins && lrcsi_wall_margin_of(band, facet)) {
         const double unit = (1 + 2 * error) / incidence->projected;
-        f.margins = fabs(lrcsi_straight_margin_area(band, visible, facet)) * unit;
+        f.margins = fabs(lrcsi_wall_margin_area(band, visible, facet)) * unit;
         f.margin_size = margin->size * unit;
     }
     return f;
 }
 
-double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
-                                   const lrcsi_visible_area *visible, const lrcsi_masked_band *band)
+double lrcsi_patch_visible_max(const lrcsi_incidence *incidence, uint32_t facet,
+                               const lrcsi_visible_area *visible, const lrcsi_masked_band *band)
 {
     return !band || lrcsi_masked_band_is_hidden(band, facet) || !(visible[facet].high > 0)
                ? 0

@@ -49,7 +49,7 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
 
 /* The margins of other parts' event edges on a facet of a straight wall; NULL if it has none or is
    hidden by other parts. */
-static inline const lrcsi_wall_margin *lrcsi_straight_margin(const lrcsi_masked_band *band,
+static inline const lrcsi_wall_margin *lrcsi_wall_margin_of(const lrcsi_masked_band *band,
                                                              uint32_t facet)
 {
     const lrcsi_wall_margin *margin = &band->whole->margin[facet];
@@ -59,15 +59,15 @@ static inline const lrcsi_wall_margin *lrcsi_straight_margin(const lrcsi_masked_
 
 /* What the sum adds to the visible area of a facet because of them. Of a facet of which nothing is
    visible the sum includes nothing. */
-static inline double lrcsi_straight_margin_area(const lrcsi_masked_band *band,
+static inline double lrcsi_wall_margin_area(const lrcsi_masked_band *band,
                                                 const lrcsi_visible_area *visible, uint32_t facet)
 {
-    const lrcsi_wall_margin *margin = lrcsi_straight_margin(band, facet);
+    const lrcsi_wall_margin *margin = lrcsi_wall_margin_of(band, facet);
     return margin && visible[facet].high > 0 ? margin->area : 0;
 }
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
-double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
+double lrcsi_patch_visible_max(const lrcsi_incidence *incidence, uint32_t facet,
                                    const lrcsi_visible_area *visible,
                                    const lrcsi_masked_band *band);
 

@@ -189,7 +189,7 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
             sum->diffuse += all.diffuse;
             sum->glint_u += all.glint_u;
             sum->diffuse_log += all.diffuse_log;
-            sum->rounding += all.rounding;
+            sum->rounding += all.rounding + LRCSI_U * (fabs(sum->glint) + fabs(sum->diffuse));
             sum->remainder += all.remainder;
             return 1;
         }

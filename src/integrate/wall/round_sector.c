@@ -45,7 +45,8 @@ void lrcsi_round_sum_add(const lrcsi_round_wall *wall, double area, const lrcsi_
 {
     sum->glint += area * value->glint;
     sum->diffuse += area * value->diffuse;
-    sum->rounding += fabs(area) * (value->error + 32 * LRCSI_U * (value->glint + value->diffuse));
+    sum->rounding += fabs(area) * (value->error + 32 * LRCSI_U * (value->glint + value->diffuse)) +
+                     LRCSI_U * (fabs(sum->glint) + fabs(sum->diffuse)); /* of the additions */
     if (wall->derivatives) {
         sum->glint_u += area * value->glint * value->u;
         sum->diffuse_log += area * value->diffuse * lrcsi_log1p(value->u).hi;
@@ -311,7 +312,7 @@ void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi
     to->diffuse += sign * margin->sum.diffuse;
     to->glint_u += sign * margin->sum.glint_u;
     to->diffuse_log += sign * margin->sum.diffuse_log;
-    to->rounding += margin->sum.rounding;
+    to->rounding += margin->sum.rounding + LRCSI_U * (fabs(to->glint) + fabs(to->diffuse));
     to->own += margin->sum.remainder;
 }
 

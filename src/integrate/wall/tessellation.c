@@ -158,7 +158,7 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
     const double value = (1 + area_err) * d.value_max;
     const double hidden =
         lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band, 0).hidden;
-    const double most = lrcsi_face_margin_sides(in->view, facet) != 0 ? HUGE_VAL : hidden;
+    const double most = lrcsi_face_border_sides(in->view, facet) != 0 ? HUGE_VAL : hidden;
     double either = point + area_err * value;
     if (facet == face->facet) {
         const double projected = incidence->projected * (1 - incidence->error);
@@ -220,11 +220,11 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     int is_curved = bounds.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
     const lrcsi_wall_margin *margin =
-        is_curved && in->margins && in->band ? lrcsi_straight_margin(in->band, facet) : NULL;
+        is_curved && in->margins && in->band ? lrcsi_wall_margin_of(in->band, facet) : NULL;
     int is_certain = !margin && (!in->band || lrcsi_masked_mismatch(in->band, facet) == 0);
     double area = 0.5 * p->normal[facet].length;
     double seen = is_curved && state == LRCSI_PATCH_HIDDEN
-                      ? lrcsi_patch_hidden_fraction(incidence, facet, in->visible, in->band)
+                      ? lrcsi_patch_visible_max(incidence, facet, in->visible, in->band)
                       : 0;
     lrcsi_tessellation error = {0, 0, 0, 0, 0};
     error.above = area * other_side(in, facet, &brdf, incidence, &bounds); /* 1 */

@@ -15,7 +15,7 @@
    those in projection. */
 #define FACE_COS_MIN 0.02
 
-int lrcsi_face_margin_applies(const lrcsi_view *view, uint32_t facet)
+int lrcsi_face_has_facet(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
@@ -24,7 +24,7 @@ int lrcsi_face_margin_applies(const lrcsi_view *view, uint32_t facet)
            (part->solid || part->kind == LRCS_SHAPE_DISC);
 }
 
-unsigned lrcsi_face_margin_sides(const lrcsi_view *view, uint32_t facet)
+unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
     unsigned sides = 0;
@@ -32,7 +32,7 @@ unsigned lrcsi_face_margin_sides(const lrcsi_view *view, uint32_t facet)
         const uint32_t other = p->neighbours.facet[facet].corner[k];
         if (other >= p->scene->facet_count || other == facet ||
             p->scene->facet_part[other] != p->scene->facet_part[facet] ||
-            !lrcsi_face_margin_applies(view, other)) {
+            !lrcsi_face_has_facet(view, other)) {
             sides |= 1u << k;
         }
     }
@@ -66,7 +66,7 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t index, lrcsi_face_f
     double x[3];
     *face = (lrcsi_face_frame){.part = index, .facet = LRCS_NONE};
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (lrcsi_face_margin_applies(view, f)) {
+        if (lrcsi_face_has_facet(view, f)) {
             face->facet = f;
             if (p->skip[f] || p->redundant[f] >= LRCSI_REDUNDANT_FROM_BEHIND ||
                 !open_parts_are_ordered(bands, f)) {
@@ -125,7 +125,7 @@ int lrcsi_face_part_is_behind(lrcsi_event_bands *bands, const lrcsi_face_frame *
     int behind = lrcsi_meter_take(bands->meter, own->facet_count);
     for (uint32_t f = own->first_facet; f < end && behind; f++) {
         double unproved = 0;
-        behind = !lrcsi_face_margin_applies(bands->view, f) ||
+        behind = !lrcsi_face_has_facet(bands->view, f) ||
                  (lrcsi_part_is_behind(&bands->orders, f, part, &unproved) && unproved == 0);
     }
     return behind;

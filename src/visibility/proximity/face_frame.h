@@ -15,11 +15,11 @@ typedef struct lrcsi_face_frame {
 } lrcsi_face_frame;
 
 /* May a facet be one of such a face, and does it face the laser? */
-int lrcsi_face_margin_applies(const lrcsi_view *view, uint32_t facet);
+int lrcsi_face_has_facet(const lrcsi_view *view, uint32_t facet);
 
 /* Which sides of such a facet are sides of the face: bit k stands for the side from corner k to
    k + 1. */
-unsigned lrcsi_face_margin_sides(const lrcsi_view *view, uint32_t facet);
+unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet);
 
 /* The face of a part. Returns 0 if there is none, or it is seen too obliquely, or one of its facets
    hides nothing (another takes its place), or the depth order of the face and an open curved part

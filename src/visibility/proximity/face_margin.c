@@ -239,7 +239,7 @@ static void facets_make(face_job *job)
     unsigned char *reader = lrcsi_work_take(job->work, count, 1);
     job->facets_tried = 1;
     for (uint32_t f = 0; f < count && reader; f++) {
-        reader[f] = lrcsi_face_margin_applies(view, f) ? 1 : 0;
+        reader[f] = lrcsi_face_has_facet(view, f) ? 1 : 0;
     }
     const lrcsi_grid_readers readers = {.undecided = reader};
     job->facets_made = reader && lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers,
@@ -278,7 +278,7 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
         for (uint32_t i = items.from; i < items.to && counted; i++) {
             const uint32_t f = job->facets.item[i];
             if (view->prepared->scene->facet_part[f] == job->face.part &&
-                lrcsi_face_margin_applies(view, f) && facet_may_cover(view, f, x) &&
+                lrcsi_face_has_facet(view, f) && facet_may_cover(view, f, x) &&
                 answer == LRCSI_QUERY_NO_ANSWER) {
                 answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             }

@@ -191,7 +191,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
             band->rows[facet] += fractions.rows;
-            if (lrcsi_wall_margins_hold(&job->walls, facet, job->listed[i])) {
+            if (lrcsi_wall_margins_add(&job->walls, facet, job->listed[i])) {
                 margin->gain += fractions.gain;
                 margin->loss += fractions.loss;
             } else {
@@ -206,7 +206,7 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
-    const int on_face = lrcsi_face_margin_applies(job->view, facet);
+    const int on_face = lrcsi_face_has_facet(job->view, facet);
     const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
@@ -257,7 +257,7 @@ static void add_face_rim(band_job *job, uint32_t facet, double pairs)
     lrcsi_proximity_band *band = job->band;
     const lrcs_prepared *p = job->view->prepared;
     const double reach = p->proximity.reach[p->scene->facet_part[facet]];
-    const unsigned sides = lrcsi_face_margin_sides(job->view, facet);
+    const unsigned sides = lrcsi_face_border_sides(job->view, facet);
     for (int k = 0; k < 3; k++) {
         if (((sides >> k) & 1) != 0 && (pairs > 0 || !lrcsi_band_side_is_free(band, facet, k))) {
             double rim = 4 * reach * lrcsi_proximity_longest(p, facet) / p->normal[facet].length;
@@ -293,7 +293,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
     job->band->margin[facet].causes = job->band->parts[facet];
     const int on_face = job->band->face[p->scene->facet_part[facet]].known &&
-                        lrcsi_face_margin_applies(view, facet);
+                        lrcsi_face_has_facet(view, facet);
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
         job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;

@@ -411,7 +411,7 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
            (visibility == LRCSI_QUERY_VISIBLE && shares_add(job, &m, turn));
 }
 
-int lrcsi_wall_margins_hold(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
+int lrcsi_wall_margins_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
 {
     const uint32_t part = job->bands->view->prepared->scene->facet_part[facet];
     lrcsi_wall_event *at = &job->event[event];

@@ -57,6 +57,6 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
 
 /* Are the margins of an event edge known on the wall of a facet near it? The first time that this
    is asked of a wall, they are added to all facets that they meet. */
-int lrcsi_wall_margins_hold(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
+int lrcsi_wall_margins_add(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
 
 #endif
