@@ -25,15 +25,10 @@
 /* Products of vectors whose square is less may underflow. */
 #define LEAST_SQUARE 0x1p-900
 
-int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
-{
-    return p->scene->part[part].solid;
-}
-
 int lrcsi_proximity_openings(const lrcs_prepared *p, uint32_t part)
 {
     int kind = p->scene->part[part].kind;
-    if (lrcsi_proximity_closed(p, part) || kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_DISC) {
+    if (p->scene->part[part].solid || kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_DISC) {
         return 0;
     }
     return kind == LRCS_SHAPE_CYLINDER || kind == LRCS_SHAPE_FRUSTUM ? 2 : 1;
@@ -159,34 +154,6 @@ double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double
     return lrcsi_slice_extent(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3]);
 }
 
-/* The part of a facet that may be within `slack` of the facet `other`: the part between the two
-   planes at that distance from the plane of `other`, and within the three planes at that distance
-   outside its sides. */
-static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
-{
-    const lrcsi_normal *normal = &p->normal[other];
-    lrcsi_slice slice =
-        lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
-                          lrcsi_prepared_corner(p, facet, 2));
-    double n[3];
-    double down[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = normal->high[k] / normal->length;
-        down[k] = -n[k];
-    }
-    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), slack);
-    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), slack);
-    for (int side = 0; side < 3 && slice.count > 0; side++) {
-        const double *a = lrcsi_prepared_corner(p, other, side);
-        const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
-        const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        double out[3];
-        lrcsi_vec3_cross(along, n, out);
-        lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
-    }
-    return slice;
-}
-
 /* Are all corners of `other` farther than `slack` from the plane of a facet, on one side of it? */
 static int pair_apart_by_plane(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
@@ -256,6 +223,37 @@ static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other,
            pair_apart_by_sides(p, facet, other, slack);
 }
 
+/* The part of a facet that may be within `slack` of the facet `other`: the part between the two
+   planes at that distance from the plane of `other`, and within the three planes at that distance
+   outside its sides. */
+static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+{
+    if (pair_is_apart(p, facet, other, slack)) {
+        return (lrcsi_slice){.count = 0};
+    }
+    const lrcsi_normal *normal = &p->normal[other];
+    lrcsi_slice slice =
+        lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
+                          lrcsi_prepared_corner(p, facet, 2));
+    double n[3];
+    double down[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = normal->high[k] / normal->length;
+        down[k] = -n[k];
+    }
+    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), slack);
+    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), slack);
+    for (int side = 0; side < 3 && slice.count > 0; side++) {
+        const double *a = lrcsi_prepared_corner(p, other, side);
+        const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
+        const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        double out[3];
+        lrcsi_vec3_cross(along, n, out);
+        lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
+    }
+    return slice;
+}
+
 /* --- all pairs -------------------------------------------------------------------------------- */
 
 /* A fraction as a float, rounded up. */
@@ -280,8 +278,7 @@ static void near_add(lrcs_prepared *p, uint32_t facet, uint32_t other)
     const uint32_t *part = p->scene->facet_part;
     double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
     lrcsi_part_set set = lrcsi_part_set_of(part[other]);
-    if ((p->proximity.near[facet] & set) == 0 && !pair_is_apart(p, facet, other, near) &&
-        pair_slice(p, facet, other, near).count > 0) {
+    if ((p->proximity.near[facet] & set) == 0 && pair_slice(p, facet, other, near).count > 0) {
         p->proximity.near[facet] |= set;
     }
 }
@@ -292,9 +289,6 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
-    if (pair_is_apart(p, facet, other, slack)) {
-        return LRCS_OK;
-    }
     lrcsi_slice slice = pair_slice(p, facet, other, slack);
     if (slice.count == 0) {
         return LRCS_OK;

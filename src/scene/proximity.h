@@ -43,10 +43,6 @@ lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *prepared, u
 double lrcsi_displacement_along(const lrcsi_displacement *displacement, const double unit[3]);
 double lrcsi_displacement_across(const lrcsi_displacement *displacement, const double unit[3]);
 
-/* 1 if a part is a closed outward solid by construction: its back sides hide nothing that its front
-   sides do not hide. */
-int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
-
 /* The number of flat openings in the convex surface of a part; 0 if it is closed or flat. A model
    file counts as having one opening. */
 int lrcsi_proximity_openings(const lrcs_prepared *prepared, uint32_t part);

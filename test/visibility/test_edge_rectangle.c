@@ -74,8 +74,8 @@ static void a_strip_about_a_long_edge_is_divided_by_it(void **state)
         assert_true(box.has_sides);
         check_fraction(&slice, 2.0 / 8);
         int upward = (edge->low == v) == up; /* from low to high: the left is where x < 2 */
-        lrcsi_slice left = lrcsi_edge_rectangle_half(slice, &box, 1);
-        lrcsi_slice right = lrcsi_edge_rectangle_half(slice, &box, -1);
+        lrcsi_slice left = lrcsi_edge_rectangle_limit(slice, &box, -1, 0);
+        lrcsi_slice right = lrcsi_edge_rectangle_limit(slice, &box, 1, 0);
         check_fraction(&left, (upward ? 7 : 9) / 64.0);
         check_fraction(&right, (upward ? 9 : 7) / 64.0);
     }

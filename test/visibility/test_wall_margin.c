@@ -73,13 +73,13 @@ static wall_sums sum_of_wall(void)
         const double projected = lrcsi_view_projected(&view, f);
         if (scene.facet_part[f] == WALL && view.facing[f] > 0) {
             sum.area += margin->area;
-            sum.size += margin->size;
-            sum.loose += margin->loose;
+            sum.size += margin->area_max;
+            sum.loose += margin->area_err;
             sum.gain += margin->gain * projected;
             sum.loss += margin->loss * projected;
             sum.all_gain += band.gain[f] * projected;
             sum.all_loss += band.loss[f] * projected;
-            sum.facets += margin->size > 0;
+            sum.facets += margin->area_max > 0;
         }
     }
     return sum;
@@ -164,7 +164,7 @@ static void edges_across_the_limb_have_bands(void **state)
             beside = fmax(beside, fabs(lrcsi_prepared_corner(view.prepared, f, k)[1]));
         }
         if (scene.facet_part[f] == WALL && ldexp(beside, view.prepared->exponent) > 0.9999) {
-            assert_true(band.margin[f].size == 0);
+            assert_true(band.margin[f].area_max == 0);
         }
     }
 }

@@ -2,7 +2,7 @@
 /* Curved shapes among other parts, divided as finely as a pose needs. A scene is built and prepared
    with few facets. If the tessellation makes a bound miss the tolerance, the parts that cause most
    of it are divided more finely, each by a number of halvings, and the pose is run again. Poses
-   that need the same halvings share the scene built for them. Every pose begins with the scene's
+   that need the same halvings share the scene built for them, a level. Every pose begins with the scene's
    own division: its result does not depend on what other poses needed.
 
    How far the error due to a part falls is forecast by a factor for each halving, one for straight
@@ -152,8 +152,9 @@ typedef struct part_choice {
    more, from 20 directions at a tolerance of 1e-5 (spinner, lander and station of
    examples/satellites) and from 60 at 1e-6 (demo), as the factor of a halving: round bodies 0.37 to
    0.38 in the median, 80 % between 0.17 and 0.48; straight walls 0.43 to 0.50 in the median, 80 %
-   between 0.32 and 0.54. Few poses need a third run, and a smaller factor for round bodies saves
-   no more time, because more poses then do. */
+   between 0.32 and 0.54. The factor used for round bodies is below their median on
+   purpose: parts are halved less often and runs take less time, although a few poses need a further
+   run. With a still smaller factor so many do that no time is saved. */
 static void choices_start(const lrcs_scene *scene, const lrcs_result *result,
                           const double *part_error_m2, const unsigned char *from,
                           part_choice *choice)
@@ -236,8 +237,10 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
         if (!(error > fmax(allowed, (1.0 + FIXED_FRACTION) * fixed)) || best == levels->parts) {
             return facets;
         }
-        for (uint32_t i = all ? 0 : best; i < (all ? levels->parts : best + 1); i++) {
-            choice_halve(levels, tolerance, &choice[i], &halvings[i]);
+        for (uint32_t i = 0; i < levels->parts; i++) {
+            if (all || i == best) {
+                choice_halve(levels, tolerance, &choice[i], &halvings[i]);
+            }
         }
     }
 }
@@ -396,7 +399,7 @@ lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_
                                     result, part_error_m2, now, halvings);
         pthread_mutex_lock(&levels->lock);
         while (finer && !(level = level_get(scene, levels, halvings))) {
-            finer = 0; /* too many facets, or too little memory: half of the way */
+            finer = 0; /* too many facets, or too little memory: half as many more */
             for (uint32_t i = 0; i < levels->parts; i++) {
                 halvings[i] = (unsigned char)(now[i] + (halvings[i] - now[i]) / 2);
                 finer |= halvings[i] > now[i];

@@ -8,7 +8,9 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/degrees.h"
+#include "base/outward.h"
 #include "base/vec3.h"
 
 /* A heuristic: wide enough that bounds of some 1e-7 of sigma leave the quotient a few digits, and
@@ -58,7 +60,9 @@ int lrcs_attitude_slope_run(const lrcs_prepared *prepared, const lrcs_pose *pose
             }
             quotient[wide] = (end[1].sigma_m2 - end[0].sigma_m2) / (2 * step);
             if (!wide) {
-                out.bound_m2[axis] = (end[0].bound_m2 + end[1].bound_m2) / (2 * step);
+                out.bound_m2[axis] =
+                    (end[0].bound_m2 + end[1].bound_m2) / (2 * step) * LRCSI_OUTWARD(8) +
+                    4 * LRCSI_U * fabs(quotient[wide]); /* of the quotient */
             }
         }
         out.per_deg_m2[axis] = quotient[0];

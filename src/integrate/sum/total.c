@@ -185,7 +185,8 @@ static void total_finish(lrcsi_total_run *run)
     total->tessellation = lrcsi_prepared_bound(p, either * outward);
     /* Corrections and the terms of round walls may be negative: each has a rounding bound of at
        least u times its size, more than the compensated sums lose by it. */
-    double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
+    double terms = 3 * count; /* at most, of each sum: a facet, its margin and its correction */
+    double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (terms * LRCSI_U) * (terms * LRCSI_U));
     total->rounding = lrcsi_prepared_bound(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
     total->error_estimate = fmin(lrcsi_prepared_area(p, estimate), total->visibility);

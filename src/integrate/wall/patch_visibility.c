@@ -67,8 +67,8 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
     f.visible = fmin(1, visible_most + fmin(lrcsi_masked_gain(band, facet), f.hidden));
     if (margins && lrcsi_wall_margin_of(band, facet)) {
         const double unit = (1 + 2 * error) / incidence->projected;
-        f.margins = fabs(lrcsi_wall_margin_area(band, visible, facet)) * unit;
-        f.margin_size = margin->size * unit;
+        f.margin_added = fabs(lrcsi_wall_margin_area(band, visible, facet)) * unit;
+        f.margin_max = margin->area_max * unit;
     }
     return f;
 }

@@ -20,12 +20,12 @@ enum lrcsi_patch_state {
 
 /* Upper bounds of fractions of a facet: */
 typedef struct lrcsi_patch_fractions {
-    double hidden;      /* hidden, or not known to be visible, by facets */
-    double gain, loss;  /* as in lrcsi_masked_band; only what is hidden may be gained, and only
+    double hidden;       /* hidden, or not known to be visible, by facets */
+    double gain, loss;   /* as in lrcsi_masked_band; only what is hidden may be gained, and only
                           what is visible lost */
-    double visible;     /* visible on the true surface */
-    double margins;     /* the size of the area that the sum adds because of margins */
-    double margin_size; /* lrcsi_wall_margin */
+    double visible;      /* visible on the true surface */
+    double margin_added; /* the size of the area that the sum adds because of margins */
+    double margin_max;   /* lrcsi_wall_margin.area_max */
 } lrcsi_patch_fractions;
 
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
@@ -50,17 +50,18 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
 /* The margins of other parts' event edges on a facet of a straight wall; NULL if it has none or is
    hidden by other parts. */
 static inline const lrcsi_wall_margin *lrcsi_wall_margin_of(const lrcsi_masked_band *band,
-                                                             uint32_t facet)
+                                                            uint32_t facet)
 {
     const lrcsi_wall_margin *margin = &band->whole->margin[facet];
-    return margin->size + margin->loose > 0 && !lrcsi_masked_band_is_hidden(band, facet) ? margin
-                                                                                         : NULL;
+    return margin->area_max + margin->area_err > 0 && !lrcsi_masked_band_is_hidden(band, facet)
+               ? margin
+               : NULL;
 }
 
 /* What the sum adds to the visible area of a facet because of them. Of a facet of which nothing is
    visible the sum includes nothing. */
 static inline double lrcsi_wall_margin_area(const lrcsi_masked_band *band,
-                                                const lrcsi_visible_area *visible, uint32_t facet)
+                                            const lrcsi_visible_area *visible, uint32_t facet)
 {
     const lrcsi_wall_margin *margin = lrcsi_wall_margin_of(band, facet);
     return margin && visible[facet].high > 0 ? margin->area : 0;
@@ -68,7 +69,6 @@ static inline double lrcsi_wall_margin_area(const lrcsi_masked_band *band,
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
 double lrcsi_patch_visible_max(const lrcsi_incidence *incidence, uint32_t facet,
-                                   const lrcsi_visible_area *visible,
-                                   const lrcsi_masked_band *band);
+                               const lrcsi_visible_area *visible, const lrcsi_masked_band *band);
 
 #endif

@@ -187,7 +187,7 @@ static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     const double varies = f.point + fabs(at->deviation.of_f.value - f.value) + mean_err;
     const int included = in->visible[at->facet].high > 0;
     const double known = included ? varies + at->area_err * most : most;
-    return (1 + at->area_err) * (known * margin->size + most * margin->loose) /
+    return (1 + at->area_err) * (known * margin->area_max + most * margin->area_err) /
            (incidence->projected * (1 - incidence->error)) * LRCSI_OUTWARD_NANO;
 }
 
@@ -223,9 +223,9 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         is_curved && in->margins && in->band ? lrcsi_wall_margin_of(in->band, facet) : NULL;
     int is_certain = !margin && (!in->band || lrcsi_masked_mismatch(in->band, facet) == 0);
     double area = 0.5 * p->normal[facet].length;
-    double seen = is_curved && state == LRCSI_PATCH_HIDDEN
-                      ? lrcsi_patch_visible_max(incidence, facet, in->visible, in->band)
-                      : 0;
+    double visible_max = is_curved && state == LRCSI_PATCH_HIDDEN
+                             ? lrcsi_patch_visible_max(incidence, facet, in->visible, in->band)
+                             : 0;
     lrcsi_tessellation error = {0, 0, 0, 0, 0};
     error.above = area * other_side(in, facet, &brdf, incidence, &bounds); /* 1 */
     if (state == LRCSI_PATCH_AWAY) {
@@ -239,7 +239,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         error.below += area * unit.below;
         return error;
     }
-    if (is_certain && seen == 0 && (!is_curved || state == LRCSI_PATCH_HIDDEN)) { /* 3 */
+    if (is_certain && visible_max == 0 && (!is_curved || state == LRCSI_PATCH_HIDDEN)) { /* 3 */
         return error;
     }
     int partner = is_curved && in->band
@@ -272,8 +272,8 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 6 */
                                at.fractions.loss * at.deviation.of_f.value_max, 0, 0, 0};
     if (is_curved) {
-        at.fractions.gain += seen;
-        at.fractions.loss += seen;
+        at.fractions.gain += visible_max;
+        at.fractions.loss += visible_max;
         uint32_t first = lrcsi_patch_sector(p, facet);
         if (lrcsi_patch_is_visible(state) && lrcsi_patch_is_visible(partner)) {
             uint32_t other = facet == first;

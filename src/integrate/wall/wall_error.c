@@ -176,7 +176,7 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
     if (bound->method == BY_HIDDEN) {
         return (lrcsi_tessellation){
             deviation->whole + f->hidden * sup,
-            deviation->whole + fmin(1 + f->margins, f->hidden + f->loss) * sup, 0, 0, 0};
+            deviation->whole + fmin(1 + f->margin_added, f->hidden + f->loss) * sup, 0, 0, 0};
     }
     if (bound->method == BY_ROWS) {
         either = deviation->whole + bound->rows * bound_by_region(deviation, stretch);
@@ -184,7 +184,7 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
     } else if (bound->method == BY_REGION) {
         either = bound_by_region(deviation, stretch);
     }
-    sup *= 1 + f->margins;
+    sup *= 1 + f->margin_added;
     return (lrcsi_tessellation){fmin(either + deviation->value * (1 + a) * f->gain, sup),
                                 fmin(either + deviation->value * (1 + a) * f->loss, sup), 0, 0, 0};
 }
@@ -285,13 +285,13 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
          !correction_make(in, at, lrcsi_patch_partner(p, at->facet), &linear, &other))) {
         return 0;
     }
-    own.error += (1 + a) * linear.variation * at->fractions.margin_size;
+    own.error += (1 + a) * linear.variation * at->fractions.margin_max;
     if (together) {
         const uint32_t partner = lrcsi_patch_partner(p, at->facet);
         const lrcsi_patch_fractions f =
             lrcsi_patch_fractions_of(&at->pair[partner - lrcsi_patch_sector(p, partner)], partner,
                                      in->visible, in->band, in->margins);
-        other.error += (1 + a) * linear.variation * f.margin_size;
+        other.error += (1 + a) * linear.variation * f.margin_max;
     }
     lrcsi_deviation deviation = linear_deviation(&at->deviation.of_f, a, &linear, patch);
     lrcsi_deviation both = linear_deviation(&sector->deviation, a, &linear, patch);

@@ -120,6 +120,20 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
+/* The area of a cell that is left undecided. Adds its error, and what is uncertain near the cell. */
+static double undecided_area(lrcsi_facet_cells *cells, const lrcsi_cell *cell)
+{
+    double low[2];
+    double high[2];
+    lrcsi_clip_box(&cell->shape, low, high);
+    const double wide = high[0] - low[0];
+    const double tall = high[1] - low[1];
+    cells->area.uncertainty +=
+        cell->uncertainty + 4 * lrcsi_division_tolerance(&cells->division, cell) * (wide + tall) +
+        5 * LRCSI_U * (cell->shape.count + 3) * wide * tall;
+    return lrcsi_max(0, lrcsi_clip_area(&cell->shape));
+}
+
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
 static void add_visible_piece(lrcsi_facet_cells *cells, const lrcsi_cell *cell,
@@ -177,7 +191,7 @@ static int process_facet_cell(lrcsi_facet_cells *cells, lrcsi_cell *cell)
                    : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(cells->halved_area, narrow) &&
                        lrcsi_cells_halve(d, cell, &s))) {
         double *perhaps = sample.guess ? &cells->perhaps_hidden : &cells->perhaps_visible;
-        *perhaps += lrcsi_clip_area(&cell->shape);
+        *perhaps += undecided_area(cells, cell);
     }
     return 0;
 }
@@ -192,7 +206,7 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
         lrcsi_cell_copy(&d->stack[--d->stack_count], &cell);
         uint64_t steps = (uint64_t)1 + cell.segment_count; /* samples count theirs */
         if (cells->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
-            leave_area_undecided(cells, lrcsi_clip_area(&cell.shape));
+            leave_area_undecided(cells, undecided_area(cells, &cell));
             continue;
         }
         cells->cells_left--;

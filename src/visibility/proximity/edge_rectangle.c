@@ -43,7 +43,7 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
     }
     box.err = lrcsi_edge_rectangle_facet_err(view, facet) + first;
     box.before = slack + box.err;
-    box.end = box.before + last;
+    box.beyond = box.before + last;
     box.has_sides = length > 2 * (first + last);
     if (box.has_sides) {
         box.along[0] /= length;
@@ -57,9 +57,9 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
     } else {
         box.along[0] = 1;
         box.along[1] = 0;
-        box.end += length;
-        box.half_width = box.before = box.end;
-        box.err = box.end;
+        box.beyond += length;
+        box.half_width = box.before = box.beyond;
+        box.err = box.beyond;
     }
     return box;
 }
@@ -95,7 +95,7 @@ lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, co
     lrcsi_segment_part_limit(&part, across[0], across[1], box->half_width);
     lrcsi_segment_part_limit(&part, -across[0], -across[1], box->half_width);
     lrcsi_segment_part_limit(&part, back[0], back[1], box->before);
-    lrcsi_segment_part_limit(&part, beyond[0], beyond[1], box->end);
+    lrcsi_segment_part_limit(&part, beyond[0], beyond[1], box->beyond);
     return part;
 }
 
@@ -114,7 +114,7 @@ static int corners_apart(const double *const point[3], const lrcsi_edge_rectangl
         left += across > box->half_width;
         right += across < -box->half_width;
         before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
-        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
+        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->beyond;
     }
     return left == 3 || right == 3 || before == 3 || beyond == 3;
 }
@@ -136,7 +136,7 @@ lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
     slice = lrcsi_slice_start(point[0], point[1], point[2]);
     lrcsi_slice_cut(&slice, left, box->a, box->half_width);
     lrcsi_slice_cut(&slice, right, box->a, box->half_width);
-    lrcsi_slice_cut(&slice, along, box->b, box->end);
+    lrcsi_slice_cut(&slice, along, box->b, box->beyond);
     lrcsi_slice_cut(&slice, back, box->a, box->before);
     return slice;
 }
@@ -148,11 +148,6 @@ lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_recta
     const double into[3] = {-inward * box->along[1], inward * box->along[0], 0};
     lrcsi_slice_cut(&slice, into, box->a, depth + box->err);
     return slice;
-}
-
-lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side)
-{
-    return lrcsi_edge_rectangle_limit(slice, box, -side, 0);
 }
 
 /* Let q be a point of the edge and y one of the facet, at most `slack` apart in projection, q - y =

@@ -8,11 +8,11 @@
 #include "view/view.h"
 
 /* Contains all points of a facet within some distance of an edge. It extends by `half_width` to
-   either side, by `before` before a, and by `end` beyond b. */
+   either side, by `before` before a, and by `beyond` beyond b. */
 typedef struct lrcsi_edge_rectangle {
     const double *a, *b;
     double along[3];
-    double half_width, before, end;
+    double half_width, before, beyond;
     double err;  /* a bound on the error of distances from the edge's line, within the rectangle */
     int reverse; /* a is the edge's end `high` */
     int has_sides;       /* 0: the edge has no length in projection; the rectangle is a square about
@@ -50,14 +50,10 @@ void lrcsi_segment_part_limit(lrcsi_segment_part *part, double first, double las
 lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, const double p[3],
                                              const double q[3]);
 
-/* What of a slice may not be farther than `depth` from the edge's line to the left of it (side 1),
-   or to the right (-1), seen from low to high. */
+/* The part of a slice in the rectangle that may lie at most `depth` to the left of the edge's line
+   (side 1), or to the right of it (-1), seen from low to high. */
 lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side,
                                        double depth);
-
-/* What of a slice in the rectangle may lie to the left (side 1) or to the right (-1) of the edge,
-   seen from low to high. */
-lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side);
 
 /* 1 if the edge lies so far behind a facet's plane that wherever it is within `slack` of a point of
    the facet in projection, it is at least 2 slack behind that point. */

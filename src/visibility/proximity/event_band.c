@@ -158,7 +158,7 @@ lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t fac
 int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)
 {
     return bands->view->facing[facet] < 0 &&
-           !lrcsi_proximity_closed(bands->view->prepared, facet_part(bands, facet));
+           !bands->view->prepared->scene->part[facet_part(bands, facet)].solid;
 }
 
 lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t facet,
@@ -333,8 +333,8 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
     if (side == 0) {
         return 1;
     }
-    lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
-    lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
+    lrcsi_slice outer = lrcsi_edge_rectangle_limit(slice, &box, side, 0);
+    lrcsi_slice inner = lrcsi_edge_rectangle_limit(slice, &box, -side, 0);
     if (isfinite(region.gain_depth) || gain_is_inside(bands, at, bands->events.part[event])) {
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }

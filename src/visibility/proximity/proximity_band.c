@@ -93,9 +93,6 @@
 #include "visibility/index/marks.h"
 #include "visibility/proximity/event_band.h"
 
-/* More than the relative rounding error of a sum of the fractions of any number of edges. */
-#define FRACTIONS_ROUNDING 0x1p-30
-
 typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
@@ -292,8 +289,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
     const int found = find_events(job, &where, &count);
     const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
     job->band->margin[facet].causes = job->band->parts[facet];
-    const int on_face = job->band->face[p->scene->facet_part[facet]].known &&
-                        lrcsi_face_has_facet(view, facet);
+    const int on_face =
+        job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_has_facet(view, facet);
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
         job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
@@ -332,7 +329,7 @@ static void add_pairs(band_job *job)
     for (size_t i = 0; i < p->proximity.count; i++) {
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
-        int closed = p->solid || lrcsi_proximity_closed(p, p->scene->facet_part[pair->other]);
+        int closed = p->solid || p->scene->part[p->scene->facet_part[pair->other]].solid;
         uint32_t other = p->scene->facet_part[pair->other];
         double err;
         double unproved;
@@ -371,11 +368,15 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 }
 
 /* Makes the fractions of a facet beside the margins on its wall: those of all bands, less those of
-   the margins, of which margin->gain and loss are the sums until now. */
-static void margin_finish(lrcsi_proximity_band *band, uint32_t facet)
+   the margins, of which margin->gain and loss are the sums until now. Each is a sum of at most two
+   terms for each event edge and one for each part, with a relative error of u for each term. */
+static void margin_finish(const band_job *job, uint32_t facet)
 {
+    const lrcsi_proximity_band *band = job->band;
     lrcsi_wall_margin *margin = &band->margin[facet];
-    const double rounding = FRACTIONS_ROUNDING * (band->gain[facet] + band->loss[facet]);
+    const double terms =
+        2.0 * job->bands.events.count + job->view->prepared->scene->part_count + 4.0;
+    const double rounding = 2 * LRCSI_U * terms * (band->gain[facet] + band->loss[facet]);
     margin->gain = lrcsi_max(0, band->gain[facet] - margin->gain) + rounding;
     margin->loss = lrcsi_max(0, band->loss[facet] - margin->loss) + rounding;
     if (band->parts[facet] == LRCSI_PART_SET_ALL) { /* not all edges were considered */
@@ -426,7 +427,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
         if (facet_matters(job->view, f)) {
             facet_fractions(job, f); /* 3 */
         }
-        margin_finish(band, f); /* 4 */
+        margin_finish(job, f); /* 4 */
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
         band->gain[f] = lrcsi_min(1, band->gain[f]);
         band->loss[f] = lrcsi_min(1, band->loss[f]);

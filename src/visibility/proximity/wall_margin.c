@@ -53,28 +53,29 @@
 #include "visibility/uniform/query.h"
 
 /* An edge whose margin meets more facets is not used: heuristic. */
-#define SHARES_MAX 1024u
+#define MARGIN_FACETS_MAX 1024u
 /* Nor one whose margin may be on facets that are so much more oblique than those to which it is
    attributed. */
-#define STEEPER_MAX 1.0
+#define COS_RATIO_ERR_MAX 1.0
 
-struct lrcsi_wall_share {
+struct lrcsi_margin_facet {
     uint32_t facet;
-    lrcsi_wall_patch at;
+    lrcsi_wall_patch patch;
     double lateral;               /* delta */
     double near[2];               /* t of the facet's points near the edge, in projection */
     lrcsi_segment_part in, outer; /* the part of the edge in the facet; the same, enlarged by
                                      errors */
-    double uncertain;             /* the fraction of the edge that may belong to it or not */
-    double steeper;   /* bound on |cos / cos' - 1|, where its part of the margin may be on another
+    double length_err;            /* the fraction of the edge that may belong to it or not */
+    double
+        cos_ratio_err; /* bound on |cos / cos' - 1|, where its part of the margin may be on another
                          facet: cos of its own incidence angle, cos' of that facet's */
-    double elsewhere; /* the sum of this over such facets, times the length along the edge where
+    double neighbour_err; /* the sum of this over such facets, times the length along the edge where
                          the margin may be on them */
 };
 
-static uint32_t shares_most(const lrcs_prepared *p)
+static uint32_t margin_facets_most(const lrcs_prepared *p)
 {
-    return p->scene->facet_count < SHARES_MAX ? p->scene->facet_count : SHARES_MAX;
+    return p->scene->facet_count < MARGIN_FACETS_MAX ? p->scene->facet_count : MARGIN_FACETS_MAX;
 }
 
 /* --- facets of a wall ------------------------------------------------------------------------- */
@@ -111,7 +112,7 @@ static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
     const lrcs_part *part = &p->scene->part[index];
     lrcsi_wall_patch at;
     return part->rigid && part->bounds.reach > 0 && !p->skip[facet] && view->facing[facet] > 0 &&
-           lrcsi_view_casts(view, facet) && lrcsi_proximity_closed(p, index) &&
+           lrcsi_view_casts(view, facet) && p->scene->part[index].solid &&
            !lrcsi_proximity_on_round_wall(p, facet) &&
            lrcsi_view_incidence(view, facet).cos_theta >
                p->proximity.grazing_cos[index] + LRCSI_VIEW_COS_ERR &&
@@ -138,14 +139,14 @@ static int is_next_to(const lrcsi_wall_patch *a, const lrcsi_wall_patch *b, uint
 
 /* Finds the part of the edge in a facet, between the lines of its sides. A side is no farther from
    its line than its ends are from their computed positions. */
-static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                      lrcsi_wall_share *share)
+static void margin_facet_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                             lrcsi_margin_facet *one)
 {
     const lrcsi_view *view = job->bands->view;
-    const uint32_t *corner = view->prepared->scene->facet[share->facet].corner;
-    const double err = m->err + lrcsi_edge_rectangle_facet_err(view, share->facet);
+    const uint32_t *corner = view->prepared->scene->facet[one->facet].corner;
+    const double err = m->err + lrcsi_edge_rectangle_facet_err(view, one->facet);
     lrcsi_segment_part inner = {0, 1};
-    share->in = share->outer = inner;
+    one->in = one->outer = inner;
     for (int k = 0; k < 3; k++) {
         const double *p = view->point[corner[k]].x;
         const double *q = view->point[corner[(k + 1) % 3]].x;
@@ -157,66 +158,66 @@ static void share_cut(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
             const double cross = side[0] * (x[1] - p[1]) - side[1] * (x[0] - p[0]);
             height[i] = length > 0 ? -cross / length : HUGE_VAL;
         }
-        lrcsi_segment_part_limit(&share->in, height[0], height[1], 0);
+        lrcsi_segment_part_limit(&one->in, height[0], height[1], 0);
         lrcsi_segment_part_limit(&inner, height[0], height[1], -err);
-        lrcsi_segment_part_limit(&share->outer, height[0], height[1], err);
+        lrcsi_segment_part_limit(&one->outer, height[0], height[1], err);
     }
-    share->uncertain =
-        lrcsi_max(0, share->outer.to - share->outer.from) - lrcsi_max(0, inner.to - inner.from);
+    one->length_err =
+        lrcsi_max(0, one->outer.to - one->outer.from) - lrcsi_max(0, inner.to - inner.from);
 }
 
 /* The distance in projection from the edge within which points may be visible for the true shapes
    and not for the facets, or the reverse. */
-static double share_slack(const lrcsi_edge_margin *m, double lateral)
+static double margin_facet_slack(const lrcsi_edge_margin *m, double lateral)
 {
     return m->outline->k + LRCSI_ROOT_2_OUTWARD * lateral + m->err;
 }
 
-/* Makes the share of a facet. Returns 0 if its part of the wall cannot be used. */
-static int share_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet,
-                      lrcsi_wall_share *share)
+/* Makes the data of a facet. Returns 0 if its part of the wall cannot be used. */
+static int margin_facet_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                             uint32_t facet, lrcsi_margin_facet *one)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     double unproved = 0;
-    *share = (lrcsi_wall_share){.facet = facet, .lateral = facet_lateral(job, facet)};
+    *one = (lrcsi_margin_facet){.facet = facet, .lateral = facet_lateral(job, facet)};
     if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
-        !(share->lateral <= m->outline->k) ||
+        !(one->lateral <= m->outline->k) ||
         !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved) ||
         unproved > 0) {
         return 0;
     }
-    lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &share->at);
+    lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &one->patch);
     const lrcsi_edge_rectangle box =
-        lrcsi_edge_rectangle_make(view, facet, m->edge, share_slack(m, share->lateral));
+        lrcsi_edge_rectangle_make(view, facet, m->edge, margin_facet_slack(m, one->lateral));
     const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
-    share->near[0] = HUGE_VAL;
-    share->near[1] = -HUGE_VAL;
+    one->near[0] = HUGE_VAL;
+    one->near[1] = -HUGE_VAL;
     for (int i = 0; i < slice.count; i++) {
         const double t =
             m->along[0] * (slice.x[i][0] - m->a[0]) + m->along[1] * (slice.x[i][1] - m->a[1]);
-        share->near[0] = lrcsi_min(share->near[0], t - box.err);
-        share->near[1] = lrcsi_max(share->near[1], t + box.err);
+        one->near[0] = lrcsi_min(one->near[0], t - box.err);
+        one->near[1] = lrcsi_max(one->near[1], t + box.err);
     }
-    share_cut(job, m, share);
+    margin_facet_cut(job, m, one);
     return box.has_sides;
 }
 
 /* Finds all facets that N meets, from one of them on. Returns 0 if (a), (b) or (e) does not hold.
    */
-static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
+static int margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
     lrcsi_marks_clear(&job->reached, p->scene->facet_count);
     job->reached.entry[facet] = job->reached.number;
-    job->shares = 0;
-    if (!share_make(job, m, facet, &job->share[job->shares++])) {
+    job->facet_count = 0;
+    if (!margin_facet_make(job, m, facet, &job->facet[job->facet_count++])) {
         return 0;
     }
-    for (uint32_t i = 0; i < job->shares; i++) {
-        const uint32_t f = job->share[i].facet;
+    for (uint32_t i = 0; i < job->facet_count; i++) {
+        const uint32_t f = job->facet[i].facet;
         const uint32_t *corner = p->scene->facet[f].corner;
         const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, f, m->edge, m->width);
         if (!lrcsi_meter_take(job->bands->meter, 4)) {
@@ -236,8 +237,8 @@ static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint
                 continue;
             }
             job->reached.entry[other] = job->reached.number;
-            if (job->shares == shares_most(p) ||
-                !share_make(job, m, other, &job->share[job->shares++])) {
+            if (job->facet_count == margin_facets_most(p) ||
+                !margin_facet_make(job, m, other, &job->facet[job->facet_count++])) {
                 return 0;
             }
         }
@@ -247,31 +248,33 @@ static int shares_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint
 
 /* Are the patches above each part of the margin next to the facet to which it is attributed? Also
    finds how much more of their area a part of the view plane stands for. */
-static int shares_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+static int margin_facets_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_scene *scene = view->prepared->scene;
-    const uint32_t part = scene->facet_part[job->share[0].facet];
+    const uint32_t part = scene->facet_part[job->facet[0].facet];
     const uint32_t around = scene->part[part].divisions.around;
-    int local = lrcsi_meter_take(job->bands->meter, (uint64_t)job->shares * job->shares / 16);
-    for (uint32_t i = 0; i < job->shares && local; i++) {
-        lrcsi_wall_share *share = &job->share[i];
-        const double own = lrcsi_view_incidence(view, share->facet).cos_theta;
-        const double from = share->outer.from * m->length - m->err;
-        const double to = share->outer.to * m->length + m->err;
-        for (uint32_t k = 0; k < job->shares && local && !lrcsi_segment_part_is_empty(share->outer);
-             k++) {
-            const lrcsi_wall_share *other = &job->share[k];
+    int local =
+        lrcsi_meter_take(job->bands->meter, (uint64_t)job->facet_count * job->facet_count / 16);
+    for (uint32_t i = 0; i < job->facet_count && local; i++) {
+        lrcsi_margin_facet *one = &job->facet[i];
+        const double own = lrcsi_view_incidence(view, one->facet).cos_theta;
+        const double from = one->outer.from * m->length - m->err;
+        const double to = one->outer.to * m->length + m->err;
+        for (uint32_t k = 0;
+             k < job->facet_count && local && !lrcsi_segment_part_is_empty(one->outer); k++) {
+            const lrcsi_margin_facet *other = &job->facet[k];
             const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
             if (k == i || !(length >= 0)) {
                 continue;
             }
             const double cosine = lrcsi_view_incidence(view, other->facet).cos_theta;
-            const double steeper =
+            const double cos_ratio_err =
                 fabs(own / cosine - 1) + 4 * LRCSI_VIEW_COS_ERR / lrcsi_min(own, cosine);
-            share->steeper = lrcsi_max(share->steeper, steeper);
-            share->elsewhere += steeper * length;
-            local = is_next_to(&share->at, &other->at, around) && steeper < STEEPER_MAX;
+            one->cos_ratio_err = lrcsi_max(one->cos_ratio_err, cos_ratio_err);
+            one->neighbour_err += cos_ratio_err * length;
+            local =
+                is_next_to(&one->patch, &other->patch, around) && cos_ratio_err < COS_RATIO_ERR_MAX;
         }
     }
     return local;
@@ -325,19 +328,19 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
     if (!job->facets_tried) {
         wall_facets_make(job);
     }
-    for (uint32_t i = 0; i < job->shares; i++) {
-        const lrcsi_wall_share *share = &job->share[i];
-        if (share->in.to - share->in.from > longest) {
-            longest = share->in.to - share->in.from;
-            t = 0.5 * (share->in.from + share->in.to);
+    for (uint32_t i = 0; i < job->facet_count; i++) {
+        const lrcsi_margin_facet *one = &job->facet[i];
+        if (one->in.to - one->in.from > longest) {
+            longest = one->in.to - one->in.from;
+            t = 0.5 * (one->in.from + one->in.to);
         }
     }
     for (int i = 0; i < 2; i++) {
         x[i] = m->a[i] + t * (m->b[i] - m->a[i]) + 0.5 * m->width * m->outward[i];
     }
-    for (uint32_t i = 0; i < job->shares && job->facets_made; i++) {
+    for (uint32_t i = 0; i < job->facet_count && job->facets_made; i++) {
         double point[3];
-        const uint32_t f = job->share[i].facet;
+        const uint32_t f = job->facet[i].facet;
         if (job->reader[f] && facet_point(view, f, x, point)) {
             return lrcsi_query_point(&job->facets, f, point, job->bands->meter);
         }
@@ -347,47 +350,49 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 
 /* --- margins ---------------------------------------------------------------------------------- */
 
-/* Adds the share of a facet. Its area is known to within: the bounds of outline.c and errors of
+/* Adds the part of the margins on a facet. Its area is known to within: the bounds of outline.c and errors of
    positions; where the part of the edge in it ends; the points at the ends of the edge; what the
    same area of the view plane stands for on other facets; the displacement of points. The strips
    that displacement adds and removes have opposite signs: the larger one counts. */
-static void share_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                      const lrcsi_outline_margin *margin, const double turn[2],
-                      const lrcsi_wall_share *share)
+static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                             const lrcsi_outline_margin *margin, const double turn[2],
+                             const lrcsi_margin_facet *one)
 {
     const lrcsi_outline_areas *areas = &job->bands->areas[m->event];
     const double depth = areas->gain_depth + areas->loss_depth;
-    const double part = lrcsi_max(0, share->outer.to - share->outer.from);
-    const double near = lrcsi_max(0, share->near[1] - share->near[0]);
+    const double part = lrcsi_max(0, one->outer.to - one->outer.from);
+    const double near = lrcsi_max(0, one->near[1] - one->near[0]);
     const double k = m->outline->k + m->err;
-    double ends = share->near[0] < 2 * k ? 4 * k * k * turn[0] : 0;
-    ends += share->near[1] > m->length - 2 * k ? 4 * k * k * turn[1] : 0;
-    lrcsi_wall_margin *to = &job->margin[share->facet];
+    double ends = one->near[0] < 2 * k ? 4 * k * k * turn[0] : 0;
+    ends += one->near[1] > m->length - 2 * k ? 4 * k * k * turn[1] : 0;
+    lrcsi_wall_margin *to = &job->margin[one->facet];
     to->area += margin->area;
-    to->size += depth * part * m->length * LRCSI_OUTWARD_NANO;
+    to->area_err += 2 * LRCSI_U * fabs(to->area); /* of the addition */
+    to->area_max += depth * part * m->length * LRCSI_OUTWARD_NANO;
     const double known =
-        margin->error + 2 * m->err * margin->width + depth * share->uncertain * m->length + ends;
-    to->loose += ((1 + share->steeper) * known + 2 * depth * share->elsewhere +
-                  LRCSI_ROOT_2_OUTWARD * share->lateral * near) *
-                 LRCSI_OUTWARD_NANO;
+        margin->error + 2 * m->err * margin->width + depth * one->length_err * m->length + ends;
+    to->area_err += ((1 + one->cos_ratio_err) * known + 2 * depth * one->neighbour_err +
+                     LRCSI_ROOT_2_OUTWARD * one->lateral * near) *
+                    LRCSI_OUTWARD_NANO;
 }
 
 /* Adds the margins of an edge, if all of them are known. */
-static int shares_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, const double turn[2])
+static int margin_facets_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                             const double turn[2])
 {
     const int side = job->bands->events.side[m->event];
     const lrcsi_outline_margin none = {0, 0, 0};
-    for (uint32_t i = 0; i < job->shares; i++) {
-        const lrcsi_wall_share *share = &job->share[i];
+    for (uint32_t i = 0; i < job->facet_count; i++) {
+        const lrcsi_margin_facet *one = &job->facet[i];
         lrcsi_outline_margin margin = none;
-        if (share->in.from < share->in.to) {
-            margin = lrcsi_outline_margin_make(m->outline, m->a, m->b, side, share->in.from,
-                                               share->in.to);
+        if (one->in.from < one->in.to) {
+            margin =
+                lrcsi_outline_margin_make(m->outline, m->a, m->b, side, one->in.from, one->in.to);
         }
         if (!isfinite(margin.error)) {
             return 0; /* then it is so for the first one that is made */
         }
-        share_add(job, m, &margin, turn, share);
+        margin_facet_add(job, m, &margin, turn, one);
     }
     return 1;
 }
@@ -402,13 +407,14 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
     double turn[2];
     if (!lrcsi_edge_margin_make(bands, event, part, 0, &m) ||
         !(m.length > LRCSI_EDGE_MARGIN_WIDTHS * m.width) ||
-        !isfinite(bands->areas[event].gain_depth) || !shares_find(job, &m, facet) ||
-        !shares_are_local(job, &m) || !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
+        !isfinite(bands->areas[event].gain_depth) || !margin_facets_find(job, &m, facet) ||
+        !margin_facets_are_local(job, &m) ||
+        !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
         return 0;
     }
     const int visibility = wall_visibility(job, &m);
     return visibility == LRCSI_QUERY_HIDDEN ||
-           (visibility == LRCSI_QUERY_VISIBLE && shares_add(job, &m, turn));
+           (visibility == LRCSI_QUERY_VISIBLE && margin_facets_add(job, &m, turn));
 }
 
 int lrcsi_wall_margins_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
@@ -430,7 +436,8 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
 {
     const size_t facets = p->scene->facet_count;
     size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(shares_most(p), sizeof(lrcsi_wall_share)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_margin_facet)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
@@ -445,12 +452,13 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     *job = (lrcsi_wall_margins){
         .bands = bands, .classification = classification, .work = work, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
-    job->share = lrcsi_work_take(work, shares_most(bands->view->prepared), sizeof *job->share);
+    job->facet =
+        lrcsi_work_take(work, margin_facets_most(bands->view->prepared), sizeof *job->facet);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
-    if (!job->event || !job->share || !job->reached.entry || !job->reader || !job->first_pair ||
+    if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->first_pair ||
         !job->next_pair) {
         return LRCS_E_MEMORY;
     }

@@ -11,10 +11,10 @@
 
 /* Of a facet. Areas are in projection, scaled. */
 typedef struct lrcsi_wall_margin {
-    double area;  /* what the true shapes leave visible, less what their facets leave */
-    double size;  /* bound on the area in the margins: F may vary over it */
-    double loose; /* bound on the error of the area, which is attributed to the facet: a part of it
-                     may be on facets next to it */
+    double area;     /* what the true shapes leave visible, less what their facets leave */
+    double area_max; /* bound on the area in the margins: F may vary over it */
+    double area_err; /* bound on the error of `area`, which is attributed to the facet: a part of it
+                        may be on facets next to it */
     double gain, loss;     /* the fractions of lrcsi_proximity_band beside these margins */
     lrcsi_part_set causes; /* the parts of these fractions, not the casters of the margins: to
                               divide these more finely reduces the error less */
@@ -27,7 +27,7 @@ typedef struct lrcsi_wall_event {
 } lrcsi_wall_event;
 
 /* A facet that the margin of an edge meets. */
-typedef struct lrcsi_wall_share lrcsi_wall_share;
+typedef struct lrcsi_margin_facet lrcsi_margin_facet;
 
 /* The search for margins, facet by facet. */
 typedef struct lrcsi_wall_margins {
@@ -38,8 +38,8 @@ typedef struct lrcsi_wall_margins {
                                          next one of the same facet; LRCS_NONE: no further one */
     lrcsi_wall_margin *margin;        /* facet: to be filled */
     lrcsi_wall_event *event;          /* event */
-    lrcsi_wall_share *share;          /* those of the edge under examination */
-    uint32_t shares;
+    lrcsi_margin_facet *facet;        /* those of the edge under examination */
+    uint32_t facet_count;
     lrcsi_marks reached;   /* facets: those of the edge under examination */
     unsigned char *reader; /* facet: whether queries may be made at it */
     lrcsi_grid facets;     /* for queries; made when first needed */
@@ -55,8 +55,9 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
                             lrcs_work *work, lrcsi_wall_margin *margin,
                             lrcsi_wall_margins *margins);
 
-/* Are the margins of an event edge known on the wall of a facet near it? The first time that this
-   is asked of a wall, they are added to all facets that they meet. */
+/* Adds the margins of an event edge to the facets of the wall on which a facet near it lies, unless
+   that was done before. Returns 1 if they are known. Facets must be given part by part: of each
+   event only the last part is remembered, and its margins would be added twice. */
 int lrcsi_wall_margins_add(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
 
 #endif
