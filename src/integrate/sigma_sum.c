@@ -68,11 +68,10 @@ void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
     lrcsi_visible_area *visible = run->memory.visible;
+    run->areas = (lrcsi_areas){.visible = NULL};
     for (uint32_t f = 0; run->curve_terms && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        visible[f] = lrcsi_view_casts(view, f)
-                         ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
-                         : lrcsi_visible_area_exact(0);
+        visible[f] = lrcsi_areas_of(&run->areas, view, &run->plan, f, &incidence);
     }
     if (run->curve_terms) {
         lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);

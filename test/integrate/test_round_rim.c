@@ -308,9 +308,9 @@ static void rim_sum(const patch_scene *s, lrcsi_visible_area area, lrcsi_part_se
     assert_int_equal(lrcsi_round_rim_add(&inside, &band, visible, &work, terms), 1);
     *terms_sum = *own = 0;
     for (uint32_t f = 0; f < count; f++) {
-        assert_true(terms[f].known || (terms[f].diffuse == 0 && terms[f].own == 0));
-        *terms_sum += fabs(terms[f].diffuse) + fabs(terms[f].glint);
-        *own += terms[f].own;
+        assert_true(terms[f].known || (terms[f].sum.diffuse == 0 && terms[f].sum.remainder == 0));
+        *terms_sum += fabs(terms[f].sum.diffuse) + fabs(terms[f].sum.glint);
+        *own += terms[f].sum.remainder;
     }
 }
 

@@ -150,12 +150,12 @@ static lrcsi_unit_response pieces_response(const lrcs_brdf *own, const lrcsi_rou
     lrcsi_unit_response sum = {weight * at->glint, weight * at->diffuse, weight * at->glint_s,
                                weight * at->diffuse_m};
     if (own->A > 0) {
-        sum.glint = LRCS_FOUR_PI * wall->glint / own->A;
-        sum.glint_s = LRCS_FOUR_PI * glint_slope_s(wall->glint_u / own->A, own->s);
+        sum.glint = LRCS_FOUR_PI * wall->sum.glint / own->A;
+        sum.glint_s = LRCS_FOUR_PI * glint_slope_s(wall->sum.glint_u / own->A, own->s);
     }
     if (own->B > 0) {
-        sum.diffuse = LRCS_FOUR_PI * wall->diffuse / own->B;
-        sum.diffuse_m = LRCS_FOUR_PI * -0.5 * (wall->diffuse_log / own->B);
+        sum.diffuse = LRCS_FOUR_PI * wall->sum.diffuse / own->B;
+        sum.diffuse_m = LRCS_FOUR_PI * -0.5 * (wall->sum.diffuse_log / own->B);
     }
     return sum;
 }

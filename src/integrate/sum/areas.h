@@ -51,18 +51,16 @@ static inline lrcsi_visible_area lrcsi_areas_of(const lrcsi_areas *areas, const 
                                                 const lrcsi_plan *plan, uint32_t facet,
                                                 const lrcsi_incidence *incidence)
 {
-    const lrcsi_visible_area nothing = lrcsi_visible_area_exact(0);
     if (lrcsi_areas_answered(areas, facet)) {
-        double area = incidence->projected;
-        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? lrcsi_visible_area_exact(area)
-                                                           : nothing;
+        int is_visible = areas->answer[facet] == LRCSI_QUERY_VISIBLE;
+        return lrcsi_visible_area_exact(is_visible ? incidence->projected : 0);
     }
     if (areas->visible) {
         return areas->visible[facet];
     }
     return lrcsi_view_casts(view, facet)
                ? lrcsi_visible_area_unshadowed(incidence, plan->grazing_cos)
-               : nothing;
+               : lrcsi_visible_area_exact(0);
 }
 
 /* The visible fraction of a facet, from its visible and its projected area. 1 if these are equal,

@@ -52,6 +52,14 @@ void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, doub
     }
 }
 
+/* Adds what a facet contributes to sigma, to the sums and to its record. */
+static void add_sigma(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+{
+    lrcsi_sum_add(&run->sums.glint, glint);
+    lrcsi_sum_add(&run->sums.diffuse, diffuse);
+    lrcsi_total_record(run, facet, glint, diffuse);
+}
+
 /* Adds a facet that reflects towards the laser and may be visible:
    1. its incidence and visible area;
    2. with curved normals, the integral over them;
@@ -71,33 +79,27 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
     lrcsi_total_count(&run->total, incidence.projected, &visible);
     if (run->curve_terms && lrcsi_curve_applies(run->view, facet)) {
         const lrcsi_curve_terms *curve_terms = &run->curve_terms[facet];
-        lrcsi_sum_add(&sums->glint, curve_terms->glint);
-        lrcsi_sum_add(&sums->diffuse, curve_terms->diffuse);
         sums->visibility += curve_terms->visibility;
         sums->rounding += curve_terms->rounding + LRCSI_FACET_UNDERFLOW;
         sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curve_terms->error_estimate);
         sums->cubature_estimate += curve_terms->estimate;
-        lrcsi_total_record(run, facet, curve_terms->glint, curve_terms->diffuse);
+        add_sigma(run, facet, curve_terms->glint, curve_terms->diffuse);
         return;
     }
     const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
     if (wall) {
-        double glint = LRCS_FOUR_PI * wall->glint;
-        double diffuse = LRCS_FOUR_PI * wall->diffuse;
-        lrcsi_sum_add(&sums->glint, glint);
-        lrcsi_sum_add(&sums->diffuse, diffuse);
+        double glint = LRCS_FOUR_PI * wall->sum.glint;
+        double diffuse = LRCS_FOUR_PI * wall->sum.diffuse;
         sums->visibility += LRCS_FOUR_PI * wall->visibility;
-        sums->rounding += LRCS_FOUR_PI * wall->rounding +
+        sums->rounding += LRCS_FOUR_PI * wall->sum.rounding +
                           8 * LRCSI_U * (fabs(glint) + fabs(diffuse)) + LRCSI_FACET_UNDERFLOW;
-        lrcsi_total_record(run, facet, glint, diffuse);
+        add_sigma(run, facet, glint, diffuse);
         return;
     }
     lrcsi_facet_terms terms =
         lrcsi_facet_terms_make(run->view, run->plan, facet, &incidence, &visible, &run->patches);
-    lrcsi_sum_add(&sums->glint, terms.glint);
-    lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
-    lrcsi_total_record(run, facet, terms.glint, terms.diffuse);
+    add_sigma(run, facet, terms.glint, terms.diffuse);
     if (visible.low < visible.high) {
         lrcsi_total_add_area_error(sums, terms.per_area, &visible);
     }
@@ -189,11 +191,11 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
    cause, and what its own part causes. */
 static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_terms *wall)
 {
-    run->sums.above += LRCS_FOUR_PI * (wall->above + wall->own);
-    run->sums.below += LRCS_FOUR_PI * (wall->below + wall->own);
+    run->sums.above += LRCS_FOUR_PI * (wall->above + wall->sum.remainder);
+    run->sums.below += LRCS_FOUR_PI * (wall->below + wall->sum.remainder);
     if (run->details.part_error) {
         uint32_t own = run->view->prepared->scene->facet_part[facet];
-        run->details.part_error[own] += LRCS_FOUR_PI * wall->own;
+        run->details.part_error[own] += LRCS_FOUR_PI * wall->sum.remainder;
         divide_error(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below),
                      run->band->whole->parts[facet], 0);
     }
@@ -203,10 +205,8 @@ static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_r
    part of the tessellation error. */
 static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
 {
-    lrcsi_sum_add(&run->sums.glint, LRCS_FOUR_PI * glint);
-    lrcsi_sum_add(&run->sums.diffuse, LRCS_FOUR_PI * diffuse);
     run->details.corrected[facet] = 1;
-    lrcsi_total_record(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
+    add_sigma(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
 }
 
 /* Adds sigma of the margins on a facet, and of those of the face that it represents. The true
@@ -221,10 +221,8 @@ static void add_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_inciden
     const lrcsi_visible_area size = lrcsi_visible_area_exact(fabs(area));
     const lrcsi_facet_terms terms =
         lrcsi_facet_terms_make(run->view, run->plan, facet, incidence, &size, &run->patches);
-    lrcsi_sum_add(&run->sums.glint, sign * terms.glint);
-    lrcsi_sum_add(&run->sums.diffuse, sign * terms.diffuse);
     run->sums.rounding += terms.rounding;
-    lrcsi_total_record(run, facet, sign * terms.glint, sign * terms.diffuse);
+    add_sigma(run, facet, sign * terms.glint, sign * terms.diffuse);
 }
 
 /* Adds the tessellation error of a facet: the error of replacing curved shapes by facets, and the

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over the facets of one material, in packets of LRCSI_LANES, in plain doubles
    (optics/shade.h). select_facets selects the facets that face the laser (lrcsi_view_dot),
-   divide_facets those of them that are visible and flat, and add_packet evaluates these. Facets
-   that cannot be evaluated in this way are added one by one (total_facet.c). */
+   add_singles adds those of them that cannot be evaluated in packets one by one (total_facet.c), and
+   add_packet evaluates the others. */
 #include <string.h>
 
 #include "base/bits.h"
@@ -31,7 +31,7 @@ static inline int side_may_be_visible(const lrcsi_total_run *run, uint32_t facet
 }
 
 /* May some facets not be visible, or not be added in packets? */
-static inline int needs_dividing(const lrcsi_total_run *run, int side)
+static inline int may_have_singles(const lrcsi_total_run *run, int side)
 {
     return run->areas->visible || run->clear ||
            run->view->prepared->batches.redundant >= least_redundant(run, side);
@@ -160,26 +160,17 @@ static void add_packet(lrcsi_total_run *run, total_batch *batch)
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Facets that are added one by one, as indices in the batches: those of clear shapes, and after
-   them the visible ones with curved normals. */
-typedef struct single_facets {
-    uint32_t element[LRCSI_LANES];
-    uint32_t clear, curved; /* how many of each */
-} single_facets;
-
-/* Divides facets that reflect, from the side given, by how they are added. Given: `count` of them,
-   as indices in the batches. Returned: list[0 .. n - 1], those that are evaluated in packets, and
-   their number n; *single, those that are not. The others are hidden. */
-static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *list, uint32_t count,
-                              single_facets *single)
+/* Adds the facets of clear shapes one by one and, after them, the visible ones with curved normals;
+   counts hidden ones. Given: `count` facets that reflect, from the side given, as indices in the
+   batches. Returned: list[0 .. n - 1], those that are evaluated in packets, and their number n. */
+static uint32_t add_singles(lrcsi_total_run *run, int side, uint32_t *list, uint32_t count)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t left = 0;
-    single->clear = single->curved = 0;
     if (run->clear) {
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_total_in_clear_shape(run, facet[list[k]])) {
-                single->element[single->clear++] = list[k];
+                lrcsi_total_add_clear(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -192,12 +183,13 @@ static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *li
         list[left] = at;
         left += (uint32_t)side_may_be_visible(run, facet[at], side);
     }
+    run->total.hidden += count - left;
     if (run->curve_terms) {
         count = left;
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_curve_applies(run->view, facet[list[k]])) {
-                single->element[single->clear + single->curved++] = list[k];
+                lrcsi_total_add_reflecting(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -208,30 +200,20 @@ static uint32_t divide_facets(const lrcsi_total_run *run, int side, uint32_t *li
 
 /* Adds the selected facets among the LRCSI_LANES from index `start` on, which reflect from the side
    given, 1 for their front or -1 for their back:
-   1. lists them, and divides the list;
-   2. adds those of clear shapes and those with curved normals one by one, and counts hidden ones;
+   1. lists them;
+   2. adds those that are not evaluated in packets, and removes them from the list (add_singles);
    3. the others join the next packet, which is added once it is full. */
 static void add_selected(lrcsi_total_run *run, total_batch *batch, uint32_t start,
                          const uint64_t pick[LRCSI_LANES], int side)
 {
-    const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t *list = batch->element + batch->waiting;
     uint32_t count = 0;
     for (uint32_t i = 0; i < LRCSI_LANES; i++) { /* without branches: facings follow no pattern */
         list[count] = start + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (needs_dividing(run, side)) {
-        single_facets single;
-        uint32_t packed = divide_facets(run, side, list, count, &single);
-        for (uint32_t k = 0; k < single.clear; k++) {
-            lrcsi_total_add_clear(run, facet[single.element[k]]);
-        }
-        for (uint32_t k = 0; k < single.curved; k++) {
-            lrcsi_total_add_reflecting(run, facet[single.element[single.clear + k]]);
-        }
-        run->total.hidden += count - packed - single.clear - single.curved;
-        count = packed;
+    if (may_have_singles(run, side)) {
+        count = add_singles(run, side, list, count);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
         batch->side[batch->waiting + i] = (signed char)side;

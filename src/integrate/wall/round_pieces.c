@@ -185,12 +185,7 @@ static int triangle_integrate(const pieces_job *job, const double corner[3][2], 
             }
         }
         if (fine && isfinite(all.glint + all.diffuse + all.rounding + all.remainder)) {
-            sum->glint += all.glint;
-            sum->diffuse += all.diffuse;
-            sum->glint_u += all.glint_u;
-            sum->diffuse_log += all.diffuse_log;
-            sum->rounding += all.rounding + LRCSI_U * (fabs(sum->glint) + fabs(sum->diffuse));
-            sum->remainder += all.remainder;
+            lrcsi_round_sum_append(&all, 1, sum);
             return 1;
         }
     }
@@ -281,16 +276,11 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
         lrcsi_min(job->band->whole->gain_aligned[facet] * projected, projected - area.low);
     double loss = lrcsi_min(job->band->whole->loss_aligned[facet] * projected, area.high);
     *terms = (lrcsi_round_terms){.known = 1,
-                                 .glint = sum.glint,
-                                 .diffuse = sum.diffuse,
-                                 .glint_u = sum.glint_u,
-                                 .diffuse_log = sum.diffuse_log,
-                                 .rounding = sum.rounding,
+                                 .sum = sum,
                                  .visibility =
                                      bound * (area.high - area.low + area_err) * LRCSI_OUTWARD_NANO,
                                  .above = bound * lrcsi_max(0, gain) * LRCSI_OUTWARD_NANO,
                                  .below = bound * lrcsi_max(0, loss) * LRCSI_OUTWARD_NANO,
-                                 .own = sum.remainder,
                                  .bound = bound * LRCSI_OUTWARD_NANO};
     return known;
 }
@@ -436,9 +426,9 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
             const int known = lrcsi_round_margin_make(&job->wall, side, part[k].range, &margin);
             if (known && part[k].state > 0 && margin.width <= 2 * reach &&
                 job->visible[to].high > 0) {
-                lrcsi_round_margin_add(&margin, 1, &terms[to]);
+                lrcsi_round_sum_append(&margin.sum, 1, &terms[to].sum);
             } else {
-                terms[to].own += margin_largest(job, side, part[k].range);
+                terms[to].sum.remainder += margin_largest(job, side, part[k].range);
             }
         }
     }

@@ -164,9 +164,9 @@ static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round
     lrcsi_round_terms *to = &terms[side->facet];
     if (lrcsi_round_margin_make(job->wall, at, lrcsi_round_whole_side, &margin) && !away &&
         side->is_certain && side->is_summed && side->is_visible) {
-        lrcsi_round_margin_add(&margin, -1, to);
+        lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
     } else {
-        to->own += side->bound * margin.area * LRCSI_OUTWARD_NANO;
+        to->sum.remainder += side->bound * margin.area * LRCSI_OUTWARD_NANO;
     }
 }
 

@@ -53,6 +53,16 @@ void lrcsi_round_sum_add(const lrcsi_round_wall *wall, double area, const lrcsi_
     }
 }
 
+void lrcsi_round_sum_append(const lrcsi_round_sum *sum, double sign, lrcsi_round_sum *to)
+{
+    to->glint += sign * sum->glint;
+    to->diffuse += sign * sum->diffuse;
+    to->glint_u += sign * sum->glint_u;
+    to->diffuse_log += sign * sum->diffuse_log;
+    to->rounding += sum->rounding + LRCSI_U * (fabs(to->glint) + fabs(to->diffuse));
+    to->remainder += sum->remainder;
+}
+
 /* --- margins ---------------------------------------------------------------------------------- */
 
 /* A point of the arc, and its derivative with respect to t. On the meridian of a sphere or dome the
@@ -304,16 +314,6 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
         margin_add(wall, side, &piece, &MARGIN_RULE_ALONG, &MARGIN_RULE_ACROSS, &margin->sum);
     }
     return known && isfinite(margin->sum.rounding + margin->sum.glint + margin->sum.diffuse);
-}
-
-void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to)
-{
-    to->glint += sign * margin->sum.glint;
-    to->diffuse += sign * margin->sum.diffuse;
-    to->glint_u += sign * margin->sum.glint_u;
-    to->diffuse_log += sign * margin->sum.diffuse_log;
-    to->rounding += margin->sum.rounding + LRCSI_U * (fabs(to->glint) + fabs(to->diffuse));
-    to->own += margin->sum.remainder;
 }
 
 /* --- sectors ---------------------------------------------------------------------------------- */

@@ -28,17 +28,13 @@ lrcsi_round_wall lrcsi_round_wall_make(const lrcsi_view *view, const lrcsi_plan 
 #define LRCSI_ROUND_RATIOS 6
 extern const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS];
 
-/* A sum of integrals of G, with bounds on its errors; glint_u and diffuse_log as in
-   lrcsi_round_terms. */
-typedef struct lrcsi_round_sum {
-    double glint, diffuse, rounding, remainder;
-    double glint_u, diffuse_log;
-} lrcsi_round_sum;
-
 /* Adds an element of area to the sum, which counts as negative if the area does. Its bound on the
    rounding error includes 16 roundings of the area and of the products with it. */
 void lrcsi_round_sum_add(const lrcsi_round_wall *wall, double area, const lrcsi_round_value *value,
                          lrcsi_round_sum *sum);
+
+/* Adds a sum to another, or subtracts it (sign -1). */
+void lrcsi_round_sum_append(const lrcsi_round_sum *sum, double sign, lrcsi_round_sum *to);
 
 /* A side of a sector: the arc of its patch and the chord of its facets, with one parameter t in
    -1 .. 1. The arc is a part of a row's circle or of a meridian, with its own parameter, sign t. */
@@ -95,8 +91,5 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
    rounding; in the latter case `largest` is finite. */
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_range range, lrcsi_round_margin *margin);
-
-/* Adds the integral over a margin to what a facet adds, or subtracts it (sign -1). */
-void lrcsi_round_margin_add(const lrcsi_round_margin *margin, double sign, lrcsi_round_terms *to);
 
 #endif
