@@ -167,11 +167,15 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
     int status = occlude_begin(classification, meter, work, &o);
     unsigned char *found = lrcsi_work_take_zero(work, count, 1); /* facet: visible[] is its area */
     status = status == LRCS_OK && !found ? LRCS_E_MEMORY : status;
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
     for (uint32_t f = 0; moment && f < count; f++) {
         moment[f] = (lrcsi_moment){.error = 0};
     }
-    for (uint32_t f = status == LRCS_OK ? 0 : count;
-         (f = lrcsi_marks_next(o.answer, f, count, LRCSI_QUERY_NO_ANSWER)) < count; f++) {
+    for (uint32_t f = 0; (f = lrcsi_marks_next(o.answer, f, count, LRCSI_QUERY_NO_ANSWER)) < count;
+         f++) {
         if (!classification->undecided[f]) {
             visible[f] = uniform_area(&o, f); /* its query gave no answer */
             if (moment) {
@@ -179,14 +183,14 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
             }
         }
     }
-    if (status == LRCS_OK && can_process_together(p) && one_by_one_is_slow(&o)) {
+    if (can_process_together(p) && one_by_one_is_slow(&o)) {
         lrcsi_cells_areas(classification, meter, progress, work, o.answer,
                           classification->undecided, found, visible, moment);
         for (uint32_t f = 0; f < count; f++) {
             left -= found[f];
         }
     }
-    if (status == LRCS_OK && left > 0) {
+    if (left > 0) {
         status = lrcsi_facet_cells_make(classification, meter, &o.facets, work, &o.single);
     }
     for (uint32_t f = status == LRCS_OK && left > 0 ? 0 : count;

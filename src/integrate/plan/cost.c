@@ -37,12 +37,15 @@
 
 /* The size of the coarsest raster. */
 #define RASTER_MIN 256u
+/* Sizes of rasters are multiples of this. */
+#define SIZE_STEP 64u
 /* A finer raster, which is more likely to be accepted, may take longer by this fraction. */
 #define RASTER_EXTRA 0.15
 /* The first raster takes at most this many times as long as the coarsest: its estimated error shows
    how fine the next one must be. */
 #define FIRST_FACTOR 4.0
-/* The ratio of the error estimate of sampling_error.h (conservative) to the random error. */
+/* The ratio of the error estimate of visibility/raster/preview.c to the random error of this model.
+   */
 #define ESTIMATE_SAFETY 4.0
 
 /* Adds the sides of a facet that are event edges, each counted `weight` times. Where back sides
@@ -108,9 +111,9 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
    sum of these lengths is the square root of their number times the sum of their areas. */
 double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size)
 {
-    double borders = sqrt(cost->casting * cost->overdraw);
+    double outlines = sqrt(cost->casting * cost->overdraw);
     double pixels = (double)size * size;
-    return DRAW_FACET * cost->casting + DRAW_BORDER * borders * size +
+    return DRAW_FACET * cost->casting + DRAW_BORDER * outlines * size +
            (DRAW_PIXEL + DRAW_COVERED * cost->overdraw) * pixels;
 }
 
@@ -129,7 +132,8 @@ static double covered_fraction(const lrcsi_cost *cost)
     return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_min(d, 100));
 }
 
-/* The mean number of facets over a covered point. Of so many borders about one is visible. */
+/* The mean number of facets over a covered point. Where so many lie one behind the other, about one
+   in that number of their event edges is visible. */
 static double mean_overdraw(const lrcsi_cost *cost)
 {
     return cost->overdraw > 0 ? cost->overdraw / covered_fraction(cost) : 1;
@@ -158,16 +162,16 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t larg
     double borders = cost->borders / mean_overdraw(cost);
     double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered_fraction(cost) / tolerance;
     uint32_t n = RASTER_MIN;
-    while (n + 64 <= largest && (double)n * n * n < error * error) {
-        n += 64;
+    while (n + SIZE_STEP <= largest && (double)n * n * n < error * error) {
+        n += SIZE_STEP;
     }
     n = borders > n && n < largest ? RASTER_MIN : n;
     if (n == largest) {
         return largest;
     }
     double allowed = (1 + RASTER_EXTRA) * lrcsi_cost_draw(cost, n);
-    while (n + 64 <= largest && lrcsi_cost_draw(cost, n + 64) <= allowed) {
-        n += 64;
+    while (n + SIZE_STEP <= largest && lrcsi_cost_draw(cost, n + SIZE_STEP) <= allowed) {
+        n += SIZE_STEP;
     }
     return n;
 }
@@ -175,8 +179,8 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t larg
 uint32_t lrcsi_cost_first(const lrcsi_cost *cost, uint32_t size)
 {
     double allowed = FIRST_FACTOR * lrcsi_cost_draw(cost, RASTER_MIN);
-    while (size >= RASTER_MIN + 64 && lrcsi_cost_draw(cost, size) > allowed) {
-        size -= 64;
+    while (size >= RASTER_MIN + SIZE_STEP && lrcsi_cost_draw(cost, size) > allowed) {
+        size -= SIZE_STEP;
     }
     return size;
 }

@@ -16,8 +16,9 @@ enum lrcsi_term_use {
 };
 
 typedef struct lrcsi_plan {
-    int method;         /* FACET, ZBUFFER, EXACT: the first to try; or CLOSED */
-    uint32_t size;      /* of the first raster, if one is drawn, unless `previews` */
+    int method;    /* FACET, ZBUFFER, EXACT: the first to try; or CLOSED */
+    uint32_t size; /* of the first raster whose areas are proved, if one is drawn; previews have
+                           sizes of their own (integrate/plan/cost.h) */
     const char *reason; /* why this method */
     int previews;       /* auto, and the estimate of a raster may be accepted: the method that is
                            estimated to cost less comes first (integrate/plan/cost.h) */

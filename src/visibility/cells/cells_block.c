@@ -350,7 +350,7 @@ static void make_record(lrcsi_blocks *b, uint32_t facet, uint32_t record)
     d->wanted[record] = b->wanted[facet];
     d->area[record] = b->area[facet];
     b->record_finding[record] =
-        b->finding[facet] | (unsigned char)(f->sliver ? LRCSI_FINDING_UNDECIDED : 0);
+        b->finding[facet] | (unsigned char)(f->degenerate ? LRCSI_FINDING_UNDECIDED : 0);
 }
 
 /* Adds the event edges of the block. An edge of none of the block's facets is hidden, or not near

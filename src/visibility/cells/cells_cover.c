@@ -110,7 +110,7 @@ static int sample_nearest(const lrcsi_division *d, const lrcsi_cell *cell,
             continue;
         }
         hit[hits++] = index;
-        int certain = inside > w && !f->sliver;
+        int certain = inside > w && !f->degenerate;
         covers[index] = 2 * listed.number + (uint32_t)certain;
         double range[2];
         lrcsi_cells_facet_z(f, at, s->tolerance, range);
@@ -226,13 +226,13 @@ static int locate_side(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
     const double p[2] = {f->x[k], f->y[k]};
     const double q[2] = {f->x[n], f->y[n]};
     double w = f->err + s->tolerance;
-    double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
+    double line_w = (f->degenerate ? f->err : f->line_err) + s->tolerance;
     if (lrcsi_clip_box_outside(s, p, q, w)) {
         return LRCSI_CLIP_OUTSIDE;
     }
     *side = (lrcsi_cell_border){
         {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
-    if (f->sliver) {
+    if (f->degenerate) {
         lrcsi_line_through(p, q, side->line);
     }
     int place =
@@ -404,7 +404,7 @@ static int segment_behind(const lrcsi_division *d, const lrcsi_marks *listed,
     }
     for (uint32_t i = 0; i < surface->facet_count; i++) {
         const lrcsi_cells_facet *f = &d->facet[surface->facet[i]];
-        double inside = f->sliver ? HUGE_VAL : 2 * f->err + w;
+        double inside = f->degenerate ? HUGE_VAL : 2 * f->err + w;
         if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > inside &&
             lrcsi_line_at(f->side[1], middle[0], middle[1]) > inside &&
             lrcsi_line_at(f->side[2], middle[0], middle[1]) > inside) {

@@ -134,7 +134,7 @@ static double facet_min_height(const lrcsi_cells_facet *f)
 /* A facet so narrow that rounding may have reversed its orientation. Its sides are replaced by
    those of a band along its longest side that contains it. It surely covers no sample, and its area
    is left undecided. */
-static void facet_make_sliver(lrcsi_cells_facet *f)
+static void facet_make_band(lrcsi_cells_facet *f)
 {
     double wide = fabs(facet_min_height(f)) + 4 * f->err;
     double line[3];
@@ -201,9 +201,9 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     f->low[1] = lrcsi_min3(f->y[0], f->y[1], f->y[2]);
     f->high[1] = lrcsi_max3(f->y[0], f->y[1], f->y[2]);
     facet_make_plane(f, z);
-    f->sliver = !(facet_min_height(f) > 16 * f->err);
-    if (f->sliver) {
-        facet_make_sliver(f);
+    f->degenerate = !(facet_min_height(f) > 16 * f->err);
+    if (f->degenerate) {
+        facet_make_band(f);
     }
 }
 

@@ -97,9 +97,10 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
 
 /* --- segments --------------------------------------------------------------------------------- */
 
-/* The error of a segment in a needle's frame, given the error of its ends. The box reaches 3, so
-   that 24 u of 4.5 bounds the rounding of the ends, of the line, and of the distance of a point of
-   the needle from the line. If the error is large compared with the margin of the box around the
+/* The error of a segment in a needle's frame, given the error of its ends. Coordinates in the box
+   -1 .. 2 are at most 2, and the distance of two points of it is at most 4.3: 24 u of 4.5, 108 u,
+   bounds the rounding of the ends, of the line, and of the distance of a point of the needle from
+   the line; 192 u is more. If the error is large compared with the margin of the box around the
    needle, nothing is known: the segment may be anywhere. */
 static double needle_segment_err(double end_err)
 {

@@ -220,11 +220,11 @@ static lrcsi_dd dot_dd(const lrcsi_dd a[3], const lrcsi_dd b[3])
 int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
                       const double corner[3][2], double reach, lrcsi_needle *n)
 {
-    double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
+    double twice_area = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
     const double *bulk = view->prepared->bulk;
     double large = lrcsi_max3(bulk[0], bulk[1], bulk[2]);
     double ratio = reach > large ? NEEDLE_LARGE_RATIO : NEEDLE_MIN_RATIO;
-    if (turn * ratio > reach * reach) {
+    if (twice_area * ratio > reach * reach) {
         return 0;
     }
     n->origin = point[0];
