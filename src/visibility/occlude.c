@@ -151,9 +151,9 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     return status;
 }
 
-/* 1. Queries of uniform facets. 2. Undecided facets together, if that is likely to be faster. 3. One by one,
-   those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
-   used here, or the areas of all facets. */
+/* 1. Queries of uniform facets. 2. Undecided facets together, if that is likely to be faster.
+   3. One by one, those of which no area was found. 4. Returns the answers, moved to the beginning
+   of the work area used here, or the areas of all facets. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter,
                       lrcs_progress *progress, lrcs_work *work, const unsigned char **answer,
                       lrcsi_visible_area *visible, lrcsi_moment *moment)

@@ -52,9 +52,9 @@ lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
 /* Closes a facet whose pieces are not needed, only its area; to be called right after open. */
 lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
 
-/* All facets: uniform ones by one exact sample; undecided ones together
-   (visibility/cells/cells.h), or one by one if that is likely to be faster. If the limit on cells is reached, the bounds of
-   the areas include what is still open.
+/* All facets: uniform ones by one exact sample; undecided ones together (visibility/cells/cells.h),
+   or one by one if that is likely to be faster. If the limit on cells is reached, the bounds of the
+   areas include what is still open.
    Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
    all of it is visible (exact); otherwise LRCSI_QUERY_NO_ANSWER, and visible[facet] is its area.
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.

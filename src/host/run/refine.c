@@ -2,8 +2,8 @@
 /* Curved shapes among other parts, divided as finely as a pose needs. A scene is built and prepared
    with few facets. If the tessellation makes a bound miss the tolerance, the parts that cause most
    of it are divided more finely, each by a number of halvings, and the pose is run again. Poses
-   that need the same halvings share the scene built for them, a level. Every pose begins with the scene's
-   own division: its result does not depend on what other poses needed.
+   that need the same halvings share the scene built for them, a level. Every pose begins with the
+   scene's own division: its result does not depend on what other poses needed.
 
    How far the error due to a part falls is forecast by a factor for each halving, one for straight
    walls and one for round bodies. Most poses take two runs, the second of which meets the
@@ -152,9 +152,9 @@ typedef struct part_choice {
    more, from 20 directions at a tolerance of 1e-5 (spinner, lander and station of
    examples/satellites) and from 60 at 1e-6 (demo), as the factor of a halving: round bodies 0.37 to
    0.38 in the median, 80 % between 0.17 and 0.48; straight walls 0.43 to 0.50 in the median, 80 %
-   between 0.32 and 0.54. The factor used for round bodies is below their median on
-   purpose: parts are halved less often and runs take less time, although a few poses need a further
-   run. With a still smaller factor so many do that no time is saved. */
+   between 0.32 and 0.54. The factor used for round bodies is below their median on purpose: parts
+   are halved less often and runs take less time, although a few poses need a further run. With a
+   still smaller factor so many do that no time is saved. */
 static void choices_start(const lrcs_scene *scene, const lrcs_result *result,
                           const double *part_error_m2, const unsigned char *from,
                           part_choice *choice)

@@ -7,8 +7,8 @@
 
 #include "integrate/cubature/cubature.h"
 #include "integrate/plan/plan.h"
-#include "visibility/occlude.h"
 #include "visibility/base/visible_area.h"
+#include "visibility/occlude.h"
 
 /* What one facet adds to sigma, in scaled units of area. */
 typedef struct lrcsi_curve_terms {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The sum of Eq. 2 over the facets of one material, in packets of LRCSI_LANES, in plain doubles
    (optics/shade.h). select_facets selects the facets that face the laser (lrcsi_view_dot),
-   add_singles adds those of them that cannot be evaluated in packets one by one (total_facet.c), and
-   add_packet evaluates the others. */
+   add_singles adds those of them that cannot be evaluated in packets one by one (total_facet.c),
+   and add_packet evaluates the others. */
 #include <string.h>
 
 #include "base/bits.h"

@@ -393,8 +393,8 @@ static int side_divide(const pieces_job *job, const lrcsi_occlusion *o,
 }
 
 /* A bound on the integral over a part of a side's margin. Where none is known of the part, because
-   its middle is steeper than the side's, that of the whole side holds for it. Infinite if neither is
-   known. */
+   its middle is steeper than the side's, that of the whole side holds for it. Infinite if neither
+   is known. */
 static double margin_largest(const pieces_job *job, const lrcsi_round_side *side,
                              lrcsi_round_range range)
 {

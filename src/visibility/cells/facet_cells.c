@@ -120,7 +120,8 @@ void lrcsi_facet_cells_open(lrcsi_facet_cells *cells, uint32_t facet)
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* The area of a cell that is left undecided. Adds its error, and what is uncertain near the cell. */
+/* The area of a cell that is left undecided. Adds its error, and what is uncertain near the cell.
+   */
 static double undecided_area(lrcsi_facet_cells *cells, const lrcsi_cell *cell)
 {
     double low[2];

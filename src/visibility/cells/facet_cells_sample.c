@@ -21,8 +21,8 @@
 #define FAR_RATIO 64
 
 /* The segment of a cell along which a component ends or meets f, or any segment if it is LRCS_NONE,
-   whose line is nearest to the point `at`: *best, NULL if there is none. Returns how many there are.
-   A component is a set of marks: the entries of its facets in component[] are its number. */
+   whose line is nearest to the point `at`: *best, NULL if there is none. Returns how many there
+   are. A component is a set of marks: the entries of its facets in component[] are its number. */
 static uint32_t component_cut(const lrcsi_facet_cells *cells, const lrcsi_cell *cell,
                               const double at[2], uint32_t component,
                               const lrcsi_cells_segment **best)
@@ -210,21 +210,20 @@ typedef struct sample_answer {
     uint32_t last; /* the component last found in front of f; LRCS_NONE: none */
 } sample_answer;
 
-/* Includes one candidate in the answer. `sides`: where its sides are kept; NULL: they are not. Boxes
-   exclude most candidates. The depth order, which takes longest, is computed last. */
+/* Includes one candidate in the answer. `sides`: where its sides are kept; NULL: they are not.
+   Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
 static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                            uint32_t other, lrcsi_facet_cells_side sides[3],
                            lrcsi_facet_cells_sample *sample, sample_answer *answer)
 {
     uint32_t component = cells->classification->component[other];
     unsigned char *order = &cells->order[other];
-    lrcsi_facet_cells_side not_kept[3];
-    not_kept[0].err = -1;
     if (*order == LRCSI_ORDER_BEHIND ||
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
         (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
         return;
     }
+    lrcsi_facet_cells_side not_kept[3] = {{.err = -1}};
     int covered = sides_cover(cells, sample, other, sides ? sides : not_kept, tolerance);
     if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
         *order = (unsigned char)lrcsi_facet_cells_order(cells, other);

@@ -196,8 +196,8 @@ static double slope_reaching(const outline_edge *edge, int side, double t)
         return 0;
     }
     for (int i = 0; i < BISECTIONS; i++) {
-        /* Slopes range over many magnitudes: the first steps use the geometric mean, with 1e-6 in the
-           place of 0. A heuristic: any slope serves, and a better one gives narrower bounds. */
+        /* Slopes range over many magnitudes: the first steps use the geometric mean, with 1e-6 in
+           the place of 0. A heuristic: any slope serves, and a better one gives narrower bounds. */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
         if (side * outline_point_at(edge, side * middle).t >= side * t) {
             high = middle;

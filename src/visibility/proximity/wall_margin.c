@@ -350,10 +350,10 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 
 /* --- margins ---------------------------------------------------------------------------------- */
 
-/* Adds the part of the margins on a facet. Its area is known to within: the bounds of outline.c and errors of
-   positions; where the part of the edge in it ends; the points at the ends of the edge; what the
-   same area of the view plane stands for on other facets; the displacement of points. The strips
-   that displacement adds and removes have opposite signs: the larger one counts. */
+/* Adds the part of the margins on a facet. Its area is known to within: the bounds of outline.c and
+   errors of positions; where the part of the edge in it ends; the points at the ends of the edge;
+   what the same area of the view plane stands for on other facets; the displacement of points. The
+   strips that displacement adds and removes have opposite signs: the larger one counts. */
 static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                              const lrcsi_outline_margin *margin, const double turn[2],
                              const lrcsi_margin_facet *one)

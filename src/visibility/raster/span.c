@@ -118,8 +118,8 @@ static inline void row_crossings(const lrcsi_edge_functions *e, double y, double
     }
 }
 
-/* Where a span begins and ends, before rounding to whole pixels: with the uncertain pixels (touched,
-   possible; outward 1) or without them (certain, full; outward -1). */
+/* Where a span begins and ends, before rounding to whole pixels: with the uncertain pixels
+   (touched, possible; outward 1) or without them (certain, full; outward -1). */
 static inline void span_ends(const double cross[4], const double margin[4], double outward,
                              double x0, double x1, double end[2])
 {

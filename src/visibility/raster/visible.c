@@ -98,8 +98,8 @@ static size_t pixel_index(const visible_job *job, uint32_t x, uint32_t y)
     return (size_t)y * job->raster->size + x;
 }
 
-/* Marks every pixel of the facet that a segment may touch: rows and ranges are widened by four times
-   the error of its points (visibility/raster/span.h). */
+/* Marks every pixel of the facet that a segment may touch: rows and ranges are widened by four
+   times the error of its points (visibility/raster/span.h). */
 static void mark_segment(visible_job *job, const drawn_facet *f,
                          const lrcsi_raster_segment *segment)
 {

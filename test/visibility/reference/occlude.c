@@ -391,8 +391,8 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->undecided =
-        !lrcsi_query_hidden_by_component(classification, &o->cover.facets, facet, NULL, &o->crossings);
+    o->undecided = !lrcsi_query_hidden_by_component(classification, &o->cover.facets, facet, NULL,
+                                                    &o->crossings);
     int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
