@@ -626,41 +626,56 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     check_abs(seen / whole, (36 - 2.1 * 2.2) / 36, 1e-13);
 }
 
-/* A plate in thousands of blocks, in each of which its area is added: behind it are small facets, by
-   whose number blocks are made; in front of it is one triangle. All corners are multiples of 2^-23:
-   projected areas are exact. */
+/* A plate in thousands of blocks, in each of which its area is added: behind it is a sheet of small
+   facets, by whose number blocks are made; in front of it are triangles that hide parts of its first
+   facet. All corners are multiples of 2^-23: the visible fraction is exact. */
+static void plate_over_a_sheet(double a, int triangles, const double slope[2])
+{
+    enum { SIDE = 60 };
+    scene_start(&scene);
+    scene_plate(&scene, (const double[3]){-a, -a, 0}, (const double[3]){2 * a, 0, 0},
+                (const double[3]){0, 2 * a, 0});
+    for (int i = 0; i < triangles; i++) { /* they hide what is below the diagonal x = y */
+        const double x = 0.5 + (i % 4) * 0x1p-4 + slope[0];
+        const double y = -0.5 + (i / 4) * 0x1p-4 + slope[1];
+        scene_triangle(&scene, (const double[3]){x, y, 1}, (const double[3]){x + 0x1p-5, y, 1},
+                       (const double[3]){x, y + 0x1p-5, 1});
+    }
+    const uint32_t first = scene.scene.vertex_count;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        point((i % SIDE) * 0x1p-6 - 0.5, (i / SIDE) * 0x1p-6 - 0.5, -1);
+    }
+    for (uint32_t i = 0; i < (SIDE - 1) * SIDE; i++) {
+        if (i % SIDE + 1 < SIDE) {
+            const uint32_t v = first + i;
+            scene_facet(&scene, v, v + 1, v + SIDE + 1);
+            scene_facet(&scene, v, v + SIDE + 1, v + SIDE);
+        }
+    }
+    turned((const double[3]){slope[0], slope[1], 1});
+}
+
 static void sums_over_thousands_of_blocks_keep_their_bounds(void **state)
 {
     (void)state;
-    enum { SIDE = 60, TRIALS = 20 };
+    enum { TRIALS = 30 };
     uint64_t seed = 1;
     for (int trial = 0; trial < TRIALS; trial++) {
         const double a = 1 + random_below(&seed, 1u << 23) * 0x1p-23;
+        const int triangles = 1 + trial % 16;
+        const double tilt = trial % 2 ? 0x1p-6 : 0;
+        const double slope[2] = {tilt * random_below(&seed, 16), -tilt * random_below(&seed, 16)};
         uint32_t left;
-        scene_start(&scene);
-        scene_plate(&scene, (const double[3]){-a, -a, 0}, (const double[3]){2 * a, 0, 0},
-                    (const double[3]){0, 2 * a, 0});
-        scene_triangle(&scene, (const double[3]){0.5, -0.5, 1}, (const double[3]){0.625, -0.5, 1},
-                       (const double[3]){0.5, -0.375, 1});
-        const uint32_t first = scene.scene.vertex_count;
-        for (int i = 0; i < SIDE * SIDE; i++) {
-            point((i % SIDE) * 0x1p-6 - 0.5, (i / SIDE) * 0x1p-6 - 0.5, -1);
-        }
-        for (uint32_t i = 0; i < (SIDE - 1) * SIDE; i++) {
-            if (i % SIDE + 1 < SIDE) {
-                const uint32_t v = first + i;
-                scene_facet(&scene, v, v + 1, v + SIDE + 1);
-                scene_facet(&scene, v, v + SIDE + 1, v + SIDE);
-            }
-        }
-        turned((const double[3]){0, 0, 1});
+        plate_over_a_sheet(a, triangles, slope);
         ask(&left);
         for (uint32_t f = 0; f < 2; f++) {
-            const double unit = 2 * a * a / lrcsi_view_projected(&view, f); /* a power of two */
-            const double area = (2 * a * a - (f == 0 ? 0x1p-7 : 0)) / unit;
+            const double hidden = f == 0 ? triangles * 0x1p-11 : 0;
+            const double whole = lrcsi_view_projected(&view, f);
+            const double area = whole * ((2 * a * a - hidden) / (2 * a * a));
+            const double rounding = 8 * 0x1p-53 * whole; /* of `whole` and the fraction */
             assert_false(open[f]);
-            check_most(found[f].low, area);
-            check_most(area, found[f].high);
+            check_most(found[f].low, area + rounding);
+            check_most(area, found[f].high + rounding);
         }
     }
 }
