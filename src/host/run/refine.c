@@ -30,6 +30,11 @@
    first of which is aimed at the geometric mean of the two: it takes a tenth of the time of the
    second, and the forecast from its errors is more accurate. */
 #define ONE_RUN_FACTOR 1e4
+/* If the error of a level that is divided already exceeds what is allowed by more than LARGE_STEP,
+   all parts with at least ALIKE_FRACTION of it are halved together, because an error where two
+   parts meet is attributed to either of them only roughly. */
+#define LARGE_STEP     16.0
+#define ALIKE_FRACTION 0x1p-6
 /* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
 #define TOLERANCE_MIN 1e-12
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
@@ -217,12 +222,13 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
     choice->error *= choice->factor;
 }
 
-/* Halves parts, all of them or the best one each time, until their total error is allowed, or no
-   part can be halved any further. If the parts that cannot be halved have more error than is
-   allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number of
-   facets. */
+/* Halves parts, each time the best one and all with at least the fraction `least` of the error,
+   until their total error is allowed, or no part can be halved any further. If the parts that
+   cannot be halved have more error than is allowed, the error of the others is reduced to
+   FIXED_FRACTION of that. Returns the number of facets. */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
-                            double allowed, int all, part_choice *choice, unsigned char *halvings)
+                            double allowed, double least, part_choice *choice,
+                            unsigned char *halvings)
 {
     for (;;) {
         double error = 0.0;
@@ -238,7 +244,7 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
             return facets;
         }
         for (uint32_t i = 0; i < levels->parts; i++) {
-            if (all || i == best) {
+            if (i == best || choice[i].error >= least * error) {
                 choice_halve(levels, tolerance, &choice[i], &halvings[i]);
             }
         }
@@ -262,6 +268,7 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
     }
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
+    double least = HUGE_VAL; /* only the best part */
     int reachable = 1;
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
@@ -270,10 +277,13 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
         for (uint32_t i = 0; i < levels->parts; i++) {
             reachable &= choice[i].error <= left ||
                          part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
+            if (from[i] > 0 && result->budget.tessellation_m2 > LARGE_STEP * allowed) {
+                least = ALIKE_FRACTION;
+            }
         }
-        double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
+        double facets = choices_halve(levels, options->tolerance, allowed, least, choice, halvings);
         choices_start(scene, result, part_error_m2, from, choice);
-        if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
+        if (choices_halve(levels, options->tolerance, allowed, 0.0, choice, alike) <
             SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
         }
