@@ -66,11 +66,11 @@ struct lrcsi_margin_facet {
     lrcsi_segment_part in, outer; /* the part of the edge in the facet; the same, enlarged by
                                      errors */
     double length_err;            /* the fraction of the edge that may belong to it or not */
-    double
-        cos_ratio_err; /* bound on |cos / cos' - 1|, where its part of the margin may be on another
-                         facet: cos of its own incidence angle, cos' of that facet's */
-    double neighbour_err; /* the sum of this over such facets, times the length along the edge where
-                         the margin may be on them */
+    double cos_ratio_err;         /* bound on |cos / cos' - 1|, where its part of the margin may be
+                                     on another facet: cos of its own incidence angle, cos' of that
+                                     facet's */
+    double neighbour_err;         /* the sum of this over such facets, times the length along the
+                                     edge where the margin may be on them */
 };
 
 static uint32_t margin_facets_most(const lrcs_prepared *p)
