@@ -21,7 +21,7 @@ static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
 }
 
 int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
-                           double contact, lrcsi_edge_margin *m)
+                           double order_err, lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = bands->view;
     const uint32_t part = bands->events.part[event];
@@ -33,14 +33,14 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
                              .outline = &bands->orders.outline[part],
                              .a = view->point[edge->low].x,
                              .b = view->point[edge->high].x,
-                             .contact = contact};
+                             .order_err = order_err};
     if (part == receiver || side == 0 || !m->outline->known ||
         lrcsi_event_rim_is_inside(bands, event)) {
         return 0;
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    m->err = contact + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
+    m->err = order_err + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
     for (int i = 0; i < 2; i++) {
         m->along[i] = ab[i] / m->length;
@@ -100,7 +100,7 @@ static int event_meets(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
     if (part == receiver->part) {
         slack += 2 * p->proximity.reach[part] + LRCSI_PROXIMITY_ERR;
     } else if (part != m->part) {
-        slack += lrcsi_proximity_slack(p, receiver->part, part) + receiver->contact;
+        slack += lrcsi_proximity_slack(p, receiver->part, part) + receiver->order_err;
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, receiver->facet, edge, slack);
@@ -122,7 +122,7 @@ static int end_at(const lrcsi_edge_margin *m, const lrcsi_edge *other)
 }
 
 /* Searched is a box larger than every distance that event_meets tests: a slack is at most e_P + 2 k
-   or 2 e_P, a contact k / 2, and the errors of the ends of another edge are smaller still. */
+   or 2 e_P, an order_err k / 2, and the errors of the ends of another edge are smaller still. */
 int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
                                   const lrcsi_margin_receiver *receiver, double turn[2])
 {

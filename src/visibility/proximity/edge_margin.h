@@ -17,21 +17,22 @@ typedef struct lrcsi_edge_margin {
     const lrcsi_outline *outline;
     const double *a, *b;
     double length, along[2], outward[2]; /* outward: away from the part's facets */
-    double contact;                      /* what is not known of the depth order, in projection */
-    double err, width;                   /* e; w */
+    double order_err;  /* the distance in projection within which it is not known what is in front
+                         (lrcsi_outline_in_front) */
+    double err, width; /* e; w */
 } lrcsi_edge_margin;
 
 /* The surface behind it. */
 typedef struct lrcsi_margin_receiver {
     uint32_t part, facet;         /* P, and one of its facets under the edge */
     const lrcsi_face_frame *face; /* its flat face; NULL: a curved wall */
-    double contact; /* on a face: the largest of what is not known of the depth order of any part */
+    double order_err;             /* on a face: the largest of any part */
 } lrcsi_margin_receiver;
 
-/* Makes it, given the contact. Returns 0 if the edge is not a contour edge of a part other than P
-   that has an outline. */
+/* Makes the data of an event edge, given its order_err. Returns 0 if it is not a contour edge of a
+   part other than P that has an outline. */
 int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
-                           double contact, lrcsi_edge_margin *margin);
+                           double order_err, lrcsi_edge_margin *margin);
 
 /* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: the turns
    at both ends. */

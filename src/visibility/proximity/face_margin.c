@@ -59,8 +59,8 @@
 
 /* Another part, beside the plane of a face. */
 typedef struct face_part {
-    int in_front;           /* 1: it is in front of the plane as in (b) */
-    double contact;         /* in projection: what that leaves open; 0 if it is not in front */
+    int in_front;     /* 1: it is in front of the plane as in (b) */
+    double order_err; /* within this, in projection, that is not known; 0 if it is not in front */
     double low[2], high[2]; /* in projection: around its facets near the plane, for (e); empty if
                                   it is in front */
 } face_part;
@@ -72,8 +72,8 @@ typedef struct face_job {
     lrcsi_grid facets; /* for queries about the faces' facets; made when first needed */
     int facets_tried, facets_made;
     lrcsi_face_frame face;
-    face_part *part; /* of each part */
-    double contact;  /* the largest of any part */
+    face_part *part;  /* of each part */
+    double order_err; /* the largest of any part */
     int parts_known;
 } face_job;
 
@@ -136,7 +136,7 @@ static void face_parts_make(face_job *job)
     const lrcs_scene *scene = p->scene;
     const double *up = scene->part[job->face.part].axis[2];
     const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
-    job->contact = 0;
+    job->order_err = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         const lrcsi_outline *outline = &bands->orders.outline[i];
@@ -146,9 +146,9 @@ static void face_parts_make(face_job *job)
         *beside = (face_part){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
         beside->in_front =
             counted && outline->known &&
-            lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->contact);
-        beside->contact = beside->in_front ? beside->contact : 0;
-        job->contact = lrcsi_max(job->contact, beside->contact);
+            lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->order_err);
+        beside->order_err = beside->in_front ? beside->order_err : 0;
+        job->order_err = lrcsi_max(job->order_err, beside->order_err);
         if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack)) {
             continue;
         }
@@ -184,7 +184,7 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
     }
     const face_part *beside = &job->part[part];
     return beside->in_front &&
-           lrcsi_edge_margin_make(bands, event, job->face.part, beside->contact, m);
+           lrcsi_edge_margin_make(bands, event, job->face.part, beside->order_err, m);
 }
 
 /* (a), and the length of the edge. */
@@ -298,10 +298,10 @@ static double edge_area(face_job *job, const lrcsi_edge_margin *m, double *error
     lrcsi_event_bands *bands = job->bands;
     const lrcsi_outline_areas *areas = &bands->areas[m->event];
     double turn[2];
-    *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->contact;
+    *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->order_err;
     double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
     const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
-                                            job->contact};
+                                            job->order_err};
     int visibility = LRCSI_QUERY_NO_ANSWER;
     if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
         lrcsi_edge_margin_is_isolated(bands, m, &receiver, turn)) {
