@@ -111,13 +111,10 @@ static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_r
         LRCS_DISTRIBUTION_MOST, LRCS_DISTRIBUTION_VALUE, LRCS_DISTRIBUTION_LEAST,
         LRCS_DISTRIBUTION_HIGH, LRCS_DISTRIBUTION_LOW};
     int whole = 1; /* all weights are 1, and sums are exact */
-    for (uint64_t i = 0; i < d->rows; i++) {
-        whole &= row[i].weight == 1.0;
-    }
     int side = which == LRCS_DISTRIBUTION_LEAST ? -1 : which == LRCS_DISTRIBUTION_MOST;
-    double slack = whole ? 0.0 : side * 2.0 * (double)d->rows * LRCSI_U * d->weight;
     for (uint64_t i = 0; i < d->rows; i++) {
         end[i] = row[i];
+        whole &= row[i].weight == 1.0;
         if (end[i].bound_m2 > 0.0 && side != 0) {
             double moved = end[i].sigma_m2 + side * end[i].bound_m2;
             end[i].sigma_m2 = fmax(nextafter(moved, side * HUGE_VAL), 0.0);
@@ -126,6 +123,7 @@ static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_r
                           : which == LRCS_DISTRIBUTION_HIGH ? end[i].high_m2
                                                             : end[i].sigma_m2;
     }
+    double slack = whole ? 0.0 : side * 2.0 * (double)d->rows * LRCSI_U * d->weight;
     qsort(end, d->rows, sizeof *end, by_rising_sigma);
     double below = 0.0;
     uint64_t at = 0;

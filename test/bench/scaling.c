@@ -25,8 +25,7 @@ static const char *const kind_names[KINDS] = {"prepare", "facet", "zbuffer", "ex
 /* One scene of a series, and the answer of its last pose. */
 typedef struct scaling_point {
     double size, ms, bytes;
-    double
-        pairs; /* of facets whose projections overlap in the last pose; 0: none, or not counted */
+    double pairs; /* of facets that overlap in the last pose; 0: none, or not counted */
     lrcs_result result;
 } scaling_point;
 

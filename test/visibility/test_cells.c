@@ -626,10 +626,10 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     check_abs(seen / whole, (36 - 2.1 * 2.2) / 36, 1e-13);
 }
 
-/* A plate in thousands of blocks, in each of which its area is added: behind it is a sheet of small
+/* A plate in thousands of blocks, in each of which its area is added: behind it are connected small
    facets, by whose number blocks are made; in front of it are triangles that hide parts of its first
    facet. All corners are multiples of 2^-23: the visible fraction is exact. */
-static void plate_over_a_sheet(double a, int triangles, const double slope[2])
+static void plate_over_small_facets(double a, int triangles, const double slope[2])
 {
     enum { SIDE = 60 };
     scene_start(&scene);
@@ -666,7 +666,7 @@ static void sums_over_thousands_of_blocks_keep_their_bounds(void **state)
         const double tilt = trial % 2 ? 0x1p-6 : 0;
         const double slope[2] = {tilt * random_below(&seed, 16), -tilt * random_below(&seed, 16)};
         uint32_t left;
-        plate_over_a_sheet(a, triangles, slope);
+        plate_over_small_facets(a, triangles, slope);
         ask(&left);
         for (uint32_t f = 0; f < 2; f++) {
             const double hidden = f == 0 ? triangles * 0x1p-11 : 0;

@@ -392,17 +392,17 @@ static int side_divide(const pieces_job *job, const lrcsi_occlusion *o,
     return count;
 }
 
-/* A bound on the integral over a part of a side's margin. Where none is known of the part, because
-   its middle is steeper than the side's, that of the whole side holds for it. Infinite if neither
-   is known. */
+/* A bound on the integral over a part of a side's margin, given that part. Where none is known of
+   the part, because its middle is steeper than the side's, that of the whole side holds for it.
+   Infinite if neither is known. */
 static double margin_largest(const pieces_job *job, const lrcsi_round_side *side,
-                             lrcsi_round_range range)
+                             const lrcsi_round_margin *part)
 {
-    lrcsi_round_margin margin;
-    if (!lrcsi_round_margin_bounds(&job->wall, side, range, &margin)) {
-        (void)lrcsi_round_margin_bounds(&job->wall, side, lrcsi_round_whole_side, &margin);
+    lrcsi_round_margin whole = {.largest = part->largest};
+    if (!isfinite(part->largest)) {
+        (void)lrcsi_round_margin_bounds(&job->wall, side, lrcsi_round_whole_side, &whole);
     }
-    return margin.largest;
+    return whole.largest;
 }
 
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
@@ -428,7 +428,7 @@ static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
                 job->visible[to].high > 0) {
                 lrcsi_round_sum_append(&margin.sum, 1, &terms[to].sum);
             } else {
-                terms[to].sum.remainder += margin_largest(job, side, part[k].range);
+                terms[to].sum.remainder += margin_largest(job, side, &margin);
             }
         }
     }
@@ -469,7 +469,11 @@ static double unknown_margin(const pieces_job *job, const lrcsi_occlusion *o,
     const int parts = side_divide(job, o, side, part);
     double sum = 0;
     for (int k = 0; k < parts; k++) {
-        sum += part[k].state < 0 ? margin_largest(job, side, part[k].range) : 0;
+        lrcsi_round_margin margin;
+        if (part[k].state < 0) {
+            (void)lrcsi_round_margin_bounds(&job->wall, side, part[k].range, &margin);
+            sum += margin_largest(job, side, &margin);
+        }
     }
     return sum;
 }

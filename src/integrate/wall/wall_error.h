@@ -22,7 +22,7 @@ typedef struct lrcsi_tessellation_input {
     const lrcsi_flat_face *face;   /* [part_count]: margins on flat faces that the sum includes;
                                       NULL: it includes none */
     int margins;                   /* 1: the sum includes the margins on straight walls
-                    (lrcsi_wall_margin_area) */
+                                      (lrcsi_wall_margin_area) */
 } lrcsi_tessellation_input;
 
 /* Bounds on the error: the true value exceeds that of the facets, and the correction if there is

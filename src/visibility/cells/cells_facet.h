@@ -25,9 +25,9 @@ typedef struct lrcsi_cells_facet {
     uint32_t neighbour[3];  /* the record of the facet that continues it across each side; 0: that
                                facet is not in the block; LRCS_NONE: there is none */
     uint32_t facet;         /* its number in the scene */
-    int degenerate;      /* 1: too narrow in the view for its sides to be known; they are those of
-                               a band that contains it */
-    int unknown_contact; /* one of its contacts could not be computed */
+    int degenerate;         /* 1: too narrow in the view for its sides to be known; they are those
+                               of a band that contains it */
+    int unknown_contact;    /* one of its contacts could not be computed */
 } lrcsi_cells_facet;
 
 /* An event edge or a contact. */

@@ -34,9 +34,9 @@
 
    A needle may be narrower than these errors. It is divided in barycentric coordinates instead
    (visibility/cells/target.h), in which it is as wide as it is long: its corners are exact except
-   for the frame's position error, segments are clipped to the box -1 .. 2, and
-   the side of another facet on which a point lies is computed in double-double. Areas are then in
-   units of twice the projected area of f. */
+   for the frame's position error, segments are clipped to the box -1 .. 2, and the side of another
+   facet on which a point lies is computed in double-double. Areas are then in units of twice the
+   projected area of f. */
 #include "visibility/cells/facet_cells.h"
 
 #include <math.h>

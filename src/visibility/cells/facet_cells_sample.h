@@ -21,12 +21,12 @@ typedef struct lrcsi_facet_cells_sample {
     lrcsi_view_box box; /* around it in the view; its depth does not count */
     int hidden;         /* is f hidden there? 1 yes, 0 no, -1 undecided */
     int guess;          /* the same if it is decided; else 1 if f is probably hidden, 0 if not */
-    uint32_t
-        ends; /* the number of segments along which the cell may be cut: if f is hidden, those at
-                      which a component in front of f ends or meets f, of the component with the
-                      fewest; otherwise all */
-    const lrcsi_cells_segment *cut; /* the one of these whose line passes nearest to the sample, so
-                                       that both parts are of similar size; NULL: there is none */
+    /* The number of segments along which the cell may be cut: if f is hidden, those at which a
+       component in front of f ends or meets f, of the component with the fewest; otherwise all.
+       And the one of these whose line passes nearest to the sample, so that both parts are of
+       similar size; NULL: there is none. */
+    uint32_t ends;
+    const lrcsi_cells_segment *cut;
 } lrcsi_facet_cells_sample;
 
 /* Takes samples in the cell until one is decided, and returns the last one. */
