@@ -14,6 +14,7 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "mesh/contact/tree_capsule.h"
 #include "mesh/contact/tree_walk.h"
 #include "mesh/shape/tessellate.h"
 #include "mesh/slice.h"
@@ -312,11 +313,34 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     return LRCS_OK;
 }
 
+/* A facet whose box is near more than MANY_NEAR facets of other parts is also compared with them
+   by capsules (mesh/contact/tree_capsule.h); if these then separate at least NEAR_NODES_APART nodes from
+   it, so is the next facet, from the start. The capsules of the tree are filled once such facets
+   have met CAPSULES_COST times as many others as there are facets: heuristics. */
+enum { MANY_NEAR = 32, NEAR_NODES_APART = 4, CAPSULES_COST = 2 };
+
+/* The search for pairs. */
+typedef struct pair_search {
+    lrcsi_tree tree;
+    uint64_t excess;  /* facets that were met beyond the first MANY_NEAR of a facet, in all */
+    int capsules_pay; /* capsules separated at least NEAR_NODES_APART nodes from the last facet */
+} pair_search;
+
+/* From here on compares nodes with the capsule of a facet, `within` wider. */
+static void narrow_search(const lrcs_prepared *p, uint32_t facet, double within,
+                          lrcsi_tree_walk *walk)
+{
+    lrcsi_tree_capsule capsule = lrcsi_tree_facet_capsule(p->vertex, &p->scene->facet[facet]);
+    capsule.radius += within;
+    lrcsi_tree_narrow_by_capsule(walk, &capsule);
+}
+
 /* Adds the pairs of a facet of a curved part and the facets of other parts, in both orders. If both
    parts are curved, only the order in which this facet comes first is added here: the other order
    is added for the other facet. */
-static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
+static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search, lrcs_work *work)
 {
+    lrcsi_tree *tree = &search->tree;
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
     const int near = lrcsi_proximity_on_round_wall(p, facet);
@@ -331,8 +355,18 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
     lrcsi_tree_walk walk = lrcsi_tree_within(tree, &box, part);
     int status = LRCS_OK;
     uint32_t at;
-    while (status == LRCS_OK && (at = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+    if (search->capsules_pay) {
+        narrow_search(p, facet, within, &walk);
+    }
+    for (int met = 0; status == LRCS_OK && (at = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         uint32_t other = tree->order[at];
+        search->excess += met >= MANY_NEAR;
+        if (!tree->has_capsules && search->excess > (uint64_t)CAPSULES_COST * tree->count) {
+            lrcsi_tree_fill_capsules(p->vertex, scene->facet, tree);
+        }
+        if (tree->has_capsules && met == MANY_NEAR && !search->capsules_pay) {
+            narrow_search(p, facet, within, &walk);
+        }
         if (scene->facet_part[other] == part) {
             continue;
         }
@@ -344,6 +378,7 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
             status = proximity_add(p, other, facet, work);
         }
     }
+    search->capsules_pay = walk.apart >= NEAR_NODES_APART;
     return status;
 }
 
@@ -353,13 +388,13 @@ static int pairs_find(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
     const lrcs_scene *scene = p->scene;
-    lrcsi_tree tree;
+    pair_search search = {.excess = 0};
     size_t mark = work->used;
     int status = lrcsi_tree_make(p->vertex, scene->facet, scene->facet_count, p->skip,
-                                 scene->facet_part, 0, work, &tree);
+                                 scene->facet_part, 0, work, &search.tree);
     for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
         if (!p->skip[f] && p->proximity.reach[scene->facet_part[f]] > 0) {
-            status = pairs_of_facet(p, f, &tree, work);
+            status = pairs_of_facet(p, f, &search, work);
         }
     }
     work->used = mark;

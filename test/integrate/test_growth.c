@@ -280,6 +280,57 @@ static void open_wall_hides_its_inside_once(void **state)
     check_most((double)wall_steps(LRCS_SHAPE_FRUSTUM), 1.4e7);
 }
 
+/* The steps of a cylinder that a cone pierces. */
+static uint64_t pierced_steps(double tolerance, uint32_t *facets)
+{
+    static unsigned char built_area[1u << 23], prepared_area[1u << 26];
+    static const double along[2][3][3] = {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+                                          {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
+    lrcs_recipe_part part[2] = {{.name = "cylinder", .material_index = -1},
+                                {.name = "cone", .material_index = -1}};
+    for (int i = 0; i < 2; i++) {
+        part[i].place = lrcs_place_default();
+        memcpy(part[i].place.rotate, along[i], sizeof along[i]);
+        part[i].place.translate[0] = i == 0 ? 0.5 : 0;
+        part[i].place.translate[1] = i == 0 ? 0 : 1.5;
+        part[i].shape = (lrcs_shape){.kind = i == 0 ? LRCS_SHAPE_CYLINDER : LRCS_SHAPE_CONE,
+                                     .radius = i == 0 ? 2.1 : 1.4,
+                                     .length = i == 0 ? 8.5 : 2.6};
+    }
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = lrcs_brdf_default()};
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 2, .binding = &binding, .binding_count = 1};
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    const lrcs_prepared *prepared;
+    lrcs_scene built;
+    lrcs_pose pose;
+    lrcs_result r;
+    build.tolerance = tolerance;
+    lrcs_work work = lrcs_work_make(built_area, sizeof built_area);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &built, NULL), LRCS_OK);
+    work = lrcs_work_make(prepared_area, sizeof prepared_area);
+    assert_int_equal(lrcs_prepare_run(&built, &work, &prepared), LRCS_OK);
+    work = lrcs_work_make(scene_memory, sizeof scene_memory);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.72, 0.604, 0.342}, &pose),
+                     LRCS_OK);
+    options.method = LRCS_METHOD_EXACT;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+    *facets = r.facets_total;
+    return r.steps;
+}
+
+/* 7.4e6: the cells along the contact of facets that are almost edge-on were left undecided, and
+   these facets processed one by one. */
+static void cells_near_contacts_of_facets_on_edge_are_halved(void **state)
+{
+    (void)state;
+    uint32_t facets;
+    const uint64_t steps = pierced_steps(3.125e-6, &facets);
+    assert_true(facets > 25000);
+    check_most((double)steps, 6.1e6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +343,7 @@ int main(void)
         cmocka_unit_test(few_facets_crossed_by_many_edges_are_divided_together),
         cmocka_unit_test(turned_stack_takes_linear_steps),
         cmocka_unit_test(open_wall_hides_its_inside_once),
+        cmocka_unit_test(cells_near_contacts_of_facets_on_edge_are_halved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of boxes against all pairs of boxes, and what its order must survive. */
 #include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_capsule.h"
 #include "mesh/contact/tree_walk.h"
 
 #include <stdlib.h>
@@ -202,6 +203,167 @@ static void slabs_leave_out_no_neighbours(void **state)
     assert_true(check_slabs(1600) < 2 * 200); /* of 200 leaves that all meet by boxes */
 }
 
+/* --- capsules --- */
+
+/* The distance of a point from a capsule's segment, less the radius. */
+static long double outside_capsule(const lrcsi_tree_capsule *c, const double *x)
+{
+    long double v[3];
+    long double from[3];
+    long double along = 0;
+    long double length = 0;
+    long double square = 0;
+    for (int k = 0; k < 3; k++) {
+        v[k] = (long double)c->end[1][k] - c->end[0][k];
+        from[k] = (long double)x[k] - c->end[0][k];
+        along += v[k] * from[k];
+        length += v[k] * v[k];
+    }
+    long double t = length > 0 ? along / length : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    for (int k = 0; k < 3; k++) {
+        square += (from[k] - t * v[k]) * (from[k] - t * v[k]);
+    }
+    return sqrtl(square) - c->radius;
+}
+
+/* The walls of two cylinders of n strips that intersect at an angle, neither of them parallel to an
+   axis. Strip i of the first is facet 2 i, of the second facet 2 i + 1. */
+static void make_walls(uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        for (uint32_t wall = 0; wall < 2; wall++) {
+            for (uint32_t c = 0; c < 3; c++) {
+                const double turn = 6.283185307179586 * (i + 0.5 * (c > 1)) / n;
+                const double r = wall ? 0.7 : 1.0;
+                const double at[3] = {r * cos(turn), r * sin(turn), c == 1 ? 4.0 : -4.0};
+                double *x = vertex[3 * (2 * i + wall) + c].x;
+                x[0] = 0.6 * at[wall ? 2 : 0] + 0.8 * at[1];
+                x[1] = -0.8 * 0.6 * at[wall ? 2 : 0] + 0.36 * at[1] + 0.8 * at[wall ? 0 : 2];
+                x[2] = 0.64 * at[wall ? 2 : 0] - 0.48 * at[1] + 0.6 * at[wall ? 0 : 2];
+                facet[2 * i + wall].corner[c] = 3 * (2 * i + wall) + c;
+            }
+        }
+    }
+}
+
+/* Facets of one wall whose capsules meet those of nodes of the other, all of them together. */
+static uint32_t near_walls(uint32_t n, int by_capsules)
+{
+    for (uint32_t f = 0; f < 2 * n; f++) {
+        label[f] = f % 2;
+    }
+    lrcsi_tree tree = make_tree(2 * n, NULL, label);
+    uint32_t found = 0;
+    lrcsi_tree_fill_capsules(vertex, facet, &tree);
+    for (uint32_t f = 0; f < 2 * n; f += 2) {
+        const lrcsi_box box = lrcsi_box_of(vertex, &facet[f]);
+        const lrcsi_tree_capsule capsule = lrcsi_tree_facet_capsule(vertex, &facet[f]);
+        lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, 0);
+        if (by_capsules) {
+            lrcsi_tree_narrow_by_capsule(&walk, &capsule);
+        }
+        while (lrcsi_tree_next(&walk) != LRCS_NONE) {
+            found++;
+        }
+    }
+    return found;
+}
+
+static void capsules_contain_what_is_below_them(void **state)
+{
+    (void)state;
+    enum { N = 700 };
+    for (int walls = 0; walls < 2; walls++) {
+        if (walls) {
+            make_walls(N / 2);
+        } else {
+            make_soup(0, N, 5.0, 1e-3);
+        }
+        lrcsi_tree tree = make_tree(N, NULL, NULL);
+        lrcsi_tree_fill_capsules(vertex, facet, &tree);
+        uint32_t size = LRCSI_TREE_LANES; /* facets of a lane */
+        for (int level = 1; level < tree.levels; level++, size *= LRCSI_TREE_LANES) {
+            for (uint32_t place = 0; place < N; place++) {
+                const uint32_t lane = place / size;
+                const lrcsi_tree_capsule c = lrcsi_tree_lane_capsule(
+                    &tree, level, lane / LRCSI_TREE_LANES, lane % LRCSI_TREE_LANES);
+                const lrcsi_tree_capsule own =
+                    lrcsi_tree_facet_capsule(vertex, &facet[tree.order[place]]);
+                assert_true(isfinite(c.radius) && isfinite(own.radius));
+                for (int k = 0; k < 3; k++) {
+                    const double *x = vertex[facet[tree.order[place]].corner[k]].x;
+                    assert_true(outside_capsule(&c, x) <= 0 && outside_capsule(&own, x) <= 0);
+                }
+            }
+        }
+    }
+}
+
+/* Facet f + 1 has a corner in the interior of facet f. */
+static void capsules_leave_out_nothing_that_meets(void **state)
+{
+    (void)state;
+    enum { N = 1200 };
+    make_soup(0, N, 0.0, 1.0);
+    for (uint32_t f = 1; f < N; f++) {
+        const double s = next_number();
+        const double t = next_number() * (1 - s);
+        for (int k = 0; k < 3; k++) {
+            const double a = vertex[3 * f - 3].x[k];
+            vertex[3 * f].x[k] =
+                a + s * (vertex[3 * f - 2].x[k] - a) + t * (vertex[3 * f - 1].x[k] - a);
+            vertex[3 * f + 1].x[k] = vertex[3 * f].x[k] + next_number() - 0.5;
+            vertex[3 * f + 2].x[k] = vertex[3 * f + 1].x[k] + 1e-3 * (next_number() - 0.5);
+        }
+    }
+    lrcsi_tree tree = make_tree(N, NULL, NULL);
+    lrcsi_tree_fill_capsules(vertex, facet, &tree);
+    uint32_t left_out = 0;
+    for (uint32_t f = 0; f + 1 < N; f++) {
+        const lrcsi_box box = lrcsi_box_of(vertex, &facet[f]);
+        const lrcsi_tree_capsule capsule = lrcsi_tree_facet_capsule(vertex, &facet[f]);
+        lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, LRCS_NONE);
+        int found = 0;
+        lrcsi_tree_narrow_by_capsule(&walk, &capsule);
+        for (uint32_t at; (at = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
+            found |= tree.order[at] == f + 1;
+        }
+        const lrcsi_box next = lrcsi_box_of(vertex, &facet[f + 1]);
+        assert_true(found || !boxes_meet(&box, &next)); /* rounding: the corner may be outside */
+        left_out += walk.apart;
+    }
+    assert_true(left_out > 0);
+}
+
+/* Most boxes of one wall meet most of the other. */
+static void capsules_tell_apart_long_facets_that_cross(void **state)
+{
+    (void)state;
+    make_walls(300);
+    const uint32_t boxes = near_walls(300, 0);
+    const uint32_t few = near_walls(300, 1);
+    make_walls(1200);
+    const uint32_t many = near_walls(1200, 1);
+    print_message("# pairs of 300 strips: %u by boxes, %u by capsules; of 1200: %u\n", boxes, few,
+                  many);
+    assert_true(boxes > 300 * 300 / 8);
+    assert_true(many < 6 * few); /* nearly in proportion to the strips */
+}
+
+static void a_capsule_of_a_point_bounds_nothing(void **state)
+{
+    (void)state;
+    vertex[0] = (lrcs_point){{0.1, 0.2, 0.3}};
+    facet[0] = (lrcs_facet){{0, 0, 0}};
+    make_soup(1, 2, 0.0, 1.0);
+    const lrcsi_tree_capsule point = lrcsi_tree_facet_capsule(vertex, &facet[0]);
+    const lrcsi_tree_capsule other = lrcsi_tree_facet_capsule(vertex, &facet[1]);
+    assert_true(point.radius == HUGE_VAL);
+    assert_false(lrcsi_tree_capsules_apart(&point, &other));
+    assert_false(lrcsi_tree_capsules_apart(&other, &point));
+}
+
 /* Boxes that end where others start, at -0 and 0 too, and of no size. */
 static void boxes_that_touch_meet(void **state)
 {
@@ -378,6 +540,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_join_finds_all_pairs_of_boxes_that_meet_once_each),
         cmocka_unit_test(slabs_leave_out_no_neighbours),
+        cmocka_unit_test(capsules_contain_what_is_below_them),
+        cmocka_unit_test(capsules_leave_out_nothing_that_meets),
+        cmocka_unit_test(capsules_tell_apart_long_facets_that_cross),
+        cmocka_unit_test(a_capsule_of_a_point_bounds_nothing),
         cmocka_unit_test(boxes_that_touch_meet),
         cmocka_unit_test(only_pairs_of_one_label_are_left_out),
         cmocka_unit_test(a_walk_finds_all_boxes_that_meet_a_given_one),

@@ -18,6 +18,7 @@
 #include "base/work.h"
 #include "mesh/contact/fan.h"
 #include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_capsule.h"
 #include "mesh/contact/tree_walk.h"
 
 enum { LEAF_LANES = LRCSI_TREE_LANES };
@@ -300,6 +301,15 @@ static int join_leaves(contact_search *search, int by_slab, uint32_t first, uint
     return status;
 }
 
+/* From here on compares nodes with a leaf by slabs and capsules. */
+static void narrow_walk(lrcsi_tree_walk *walk, uint32_t leaf)
+{
+    const lrcsi_tree_capsule capsule =
+        lrcsi_tree_lane_capsule(walk->tree, 1, leaf / LEAF_LANES, leaf % LEAF_LANES);
+    lrcsi_tree_narrow_by_slabs(walk, leaf);
+    lrcsi_tree_narrow_by_capsule(walk, &capsule);
+}
+
 /* Tests all pairs of a leaf's facets, unless all are in one proved fan, and its facets against
    those of leaves that come after it. */
 static int join_leaf(contact_search *search, uint32_t leaf)
@@ -321,7 +331,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         lrcsi_tree_narrow_by_cones(&walk, leaf);
     }
     if (search->slabs_pay) {
-        lrcsi_tree_narrow_by_slabs(&walk, leaf);
+        narrow_walk(&walk, leaf);
     }
     int slab_from = search->leaves_apart >= LEAVES_APART ? 0 : SOME_LEAVES;
     uint32_t other;
@@ -330,9 +340,10 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         search->excess += met >= MANY_LEAVES;
         if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->nodes[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
+            lrcsi_tree_fill_capsules(search->vertex, search->facet, tree);
         }
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
-            lrcsi_tree_narrow_by_slabs(&walk, leaf);
+            narrow_walk(&walk, leaf);
         }
         status = join_leaves(search, met >= slab_from, leaf, other);
     }

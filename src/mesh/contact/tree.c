@@ -138,8 +138,10 @@ static int take_levels(lrcs_work *work, lrcsi_tree *tree)
         tree->node[l] = lrcsi_work_take(work, below, sizeof *tree->node[l]);
         tree->label[l] = lrcsi_work_take(work, below, sizeof *tree->label[l]);
         tree->slabs[l] = lrcsi_work_take(work, l > 0 ? below : 0, sizeof *tree->slabs[l]);
+        tree->capsules[l] = lrcsi_work_take(work, l > 0 ? below : 0, sizeof *tree->capsules[l]);
         tree->cone[l] = lrcsi_work_take(work, below, sizeof *tree->cone[l]);
-        if (!tree->node[l] || !tree->label[l] || !tree->slabs[l] || !tree->cone[l]) {
+        if (!tree->node[l] || !tree->label[l] || !tree->slabs[l] || !tree->capsules[l] ||
+            !tree->cone[l]) {
             return LRCS_E_MEMORY;
         }
     }
@@ -219,6 +221,8 @@ size_t lrcsi_tree_need(uint32_t facet_count)
         boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(uint32_t)));
         boxes =
             lrcsi_work_add(boxes, lrcsi_work_bytes(l > 0 ? below : 0, sizeof(lrcsi_tree_slabs)));
+        boxes =
+            lrcsi_work_add(boxes, lrcsi_work_bytes(l > 0 ? below : 0, sizeof(lrcsi_tree_capsules)));
         boxes = lrcsi_work_add(boxes, lrcsi_work_bytes(below, sizeof(lrcsi_tree_cone)));
     }
     return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),

@@ -31,6 +31,16 @@ typedef struct lrcsi_tree_slab {
     double size; /* the largest |x| + |y| + |z| of the corners */
 } lrcsi_tree_slab;
 
+/* All points within `radius` of a segment; infinite if it bounds nothing. */
+typedef struct lrcsi_tree_capsule {
+    double end[2][3], radius;
+} lrcsi_tree_capsule;
+
+/* Capsules that contain the contents of the eight boxes. */
+typedef struct lrcsi_tree_capsules {
+    double end[2][3][LRCSI_TREE_LANES], radius[LRCSI_TREE_LANES];
+} lrcsi_tree_capsules;
+
 /* A cone that contains a node of facets with a common vertex, seen from that vertex: for every
    other corner x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of
    0 or less bounds nothing. */
@@ -48,9 +58,11 @@ typedef struct lrcsi_tree {
     uint32_t nodes[LRCSI_TREE_LEVELS];
     lrcsi_tree_node *node[LRCSI_TREE_LEVELS];
     uint32_t *label[LRCSI_TREE_LEVELS]; /* of each node: that of all facets below, or LRCS_NONE */
-    lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS]; /* from level 1 on: of the nodes below */
-    int has_slabs;                              /* 0: not yet filled */
-    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];   /* of each node that has a label, if filled */
+    lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS];       /* from level 1 on: of the nodes below */
+    int has_slabs;                                    /* 0: not yet filled */
+    lrcsi_tree_capsules *capsules[LRCSI_TREE_LEVELS]; /* from level 1 on, likewise */
+    int has_capsules;
+    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS]; /* of each node that has a label, if filled */
 } lrcsi_tree;
 
 /* A lane's box. */

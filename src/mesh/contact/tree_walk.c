@@ -4,21 +4,48 @@
 #include "mesh/contact/tree_walk.h"
 
 #include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_capsule.h"
 
 enum { WALK_LANES = LRCSI_TREE_LANES };
 
-/* The lanes of a mask that slabs do not prove to be disjoint from the leaf. */
+/* Is a lane proved to be apart from the leaf, by slabs, or from the capsule? */
+static int is_apart(const lrcsi_tree_walk *w, int level, uint32_t lane)
+{
+    if (w->leaf != LRCS_NONE &&
+        lrcsi_tree_slabs_apart(w->tree, w->leaf, level, w->at[level], lane)) {
+        return 1;
+    }
+    if (!(w->capsule.radius > 0.0)) {
+        return 0;
+    }
+    const lrcsi_tree_capsule other = lrcsi_tree_lane_capsule(w->tree, level, w->at[level], lane);
+    return lrcsi_tree_capsules_apart(&w->capsule, &other);
+}
+
+/* The lanes of a mask that are not proved to be apart. Lanes of level 0, which are facets, have
+   neither slabs nor capsules. */
 static unsigned narrowed(lrcsi_tree_walk *w, int level, unsigned mask)
 {
     unsigned left = mask;
+    if (level == 0 || (w->leaf == LRCS_NONE && !(w->capsule.radius > 0.0))) {
+        return mask;
+    }
     for (; mask != 0; mask &= mask - 1) {
-        uint32_t lane = lrcsi_tree_lane(mask);
-        if (lrcsi_tree_slabs_apart(w->tree, w->leaf, level, w->at[level], lane)) {
+        const uint32_t lane = lrcsi_tree_lane(mask);
+        if (is_apart(w, level, lane)) {
             left &= ~(1u << lane);
             w->apart++;
         }
     }
     return left;
+}
+
+/* Narrows what is still to be visited. */
+static void narrow_rest(lrcsi_tree_walk *w)
+{
+    for (int level = w->level; level < w->tree->levels; level++) {
+        w->mask[level] = narrowed(w, level, w->mask[level]);
+    }
 }
 
 lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without)
@@ -57,9 +84,13 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
 void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *w, uint32_t leaf)
 {
     w->leaf = leaf;
-    for (int level = w->level; level < w->tree->levels; level++) {
-        w->mask[level] = narrowed(w, level, w->mask[level]);
-    }
+    narrow_rest(w);
+}
+
+void lrcsi_tree_narrow_by_capsule(lrcsi_tree_walk *w, const lrcsi_tree_capsule *capsule)
+{
+    w->capsule = *capsule;
+    narrow_rest(w);
 }
 
 void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *w, uint32_t leaf)
@@ -92,9 +123,7 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
         w->level = level - 1;
         w->at[level - 1] = child;
         w->mask[level - 1] = lrcsi_tree_meets(&tree->node[level - 1][child], &w->box);
-        if (w->leaf != LRCS_NONE) {
-            w->mask[level - 1] = narrowed(w, level - 1, w->mask[level - 1]);
-        }
+        w->mask[level - 1] = narrowed(w, level - 1, w->mask[level - 1]);
     }
     return LRCS_NONE;
 }

@@ -13,7 +13,8 @@ typedef struct lrcsi_tree_walk {
     uint32_t without;            /* nodes with this label are left out; LRCS_NONE: none */
     int last, level;             /* the level whose boxes are sought; the current level */
     uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
-    uint32_t apart;              /* number of nodes that slabs have left out */
+    uint32_t apart;              /* number of nodes that slabs or capsules have left out */
+    lrcsi_tree_capsule capsule;  /* with which those of nodes are compared; radius 0: none is */
     const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
     uint32_t apex;               /* then the leaf's label, the vertex of the cones */
     uint32_t at[LRCSI_TREE_LEVELS];
@@ -32,6 +33,10 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 /* From here on a traversal leaves out the nodes that slabs separate from the leaf (see
    mesh/contact/tree_bounds.h); this pays for leaves whose boxes intersect many others. */
 void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
+
+/* From here on a traversal leaves out the nodes that are apart from a capsule
+   (mesh/contact/tree_capsule.h), which contains whatever the traversal seeks to meet. */
+void lrcsi_tree_narrow_by_capsule(lrcsi_tree_walk *walk, const lrcsi_tree_capsule *capsule);
 
 /* From here on the traversal of a leaf that has a vertex as label leaves out the nodes of the same
    label whose cones have nothing but that vertex in common with the leaf's. */

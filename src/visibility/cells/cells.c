@@ -47,15 +47,21 @@
 #define STEPS_CONSTANT 65536u
 #define STEPS_PER_ITEM 4096u
 #define STEPS_PER_CELL 4096u
+/* A cell without a segment is halved if its area is at most so many times negligible: near a
+   contact of a facet that is almost edge-on, samples farther from the contact decide. Heuristic:
+   the facets of a larger cell are processed alone. */
+#define MAX_HALVED 0x1p14
 /* Accepted error of an area, relative to the facet's projected area and to the square of the
    scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
 /* Heuristics: if the number of facets that remain to be processed alone, times that of all facets,
    exceeds MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are
-   accepted: a facet alone is compared with every facet that might hide it. */
+   accepted: a facet alone is compared with every facet that might hide it. In a scene with curved
+   shapes it is CURVED_FACTOR: what is visible differs from the truth by far more there. */
 #define MANY_LEFT     65536u
 #define SINGLE_FACTOR 4
+#define CURVED_FACTOR 16
 /* A facet counts as a needle here if its projected area is less than this, relative to its diameter
    squared. Heuristic: those that are needles to visibility/cells/target.c, and some that are wider.
    */
@@ -264,7 +270,8 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
         cut = choose_cut(d, cell, &s, CUT_FOREGROUND, surface);
     }
 
-    /* 4. Decide the cell if no event edge is left in it, or cut it. */
+    /* 4. Decide the cell if no event edge is left in it, or cut it. If it has no segment, and no
+       sample tells which facet is nearest, it is halved if it is small. */
     int alone = sample->outcome == LRCSI_SAMPLE_EMPTY || (covers && !cut);
     if (!cut) {
         cut = choose_cut(d, cell, &s, alone ? CUT_EDGES : CUT_ANY, NULL);
@@ -273,7 +280,11 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
             return 1;
         }
     }
-    if (!cut || !lrcsi_cells_divide(d, cell, &s, cut, covers && thin == 0 ? sample->at : NULL)) {
+    const int divided =
+        cut ? lrcsi_cells_divide(d, cell, &s, cut, covers && thin == 0 ? sample->at : NULL)
+            : lrcsi_clip_area(&cell->shape) <= MAX_HALVED * d->negligible &&
+                  lrcsi_cells_halve(d, cell, &s);
+    if (!divided) {
         add_finding(b, cell, LRCSI_FINDING_UNDECIDED);
     }
     return 0;
@@ -350,7 +361,7 @@ static double extent_of(const lrcs_prepared *p)
 
 /* The largest error at which a facet's area is accepted. It is the sum of two terms: 1e-12 of the
    projected area; and 1e-15 of the squared extent or, if as_single and if that is more,
-   SINGLE_FACTOR times the least error of the facet processed alone
+   SINGLE_FACTOR or CURVED_FACTOR times the least error of the facet processed alone
    (visibility/cells/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a
    strip 128 u of the diameter wide. Needles, and facets with a diameter of twice the extent or
    more, are much more accurate alone: for these there is only the first term, unless they represent
@@ -370,7 +381,8 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
     int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * b->area[facet].strip_length);
-    alone = as_single ? SINGLE_FACTOR * alone : 0;
+    alone *= view->prepared->proximity.reach ? CURVED_FACTOR : SINGLE_FACTOR;
+    alone = as_single ? alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }

@@ -57,7 +57,8 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
     const lrcsi_grid *grid = &cells->grid;
     lrcsi_division *d = &cells->division;
     lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, cells->facet);
-    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    lrcsi_grid_walk walk;
+    lrcsi_grid_row row;
     const uint32_t *corner = d->view->prepared->scene->facet[cells->facet].corner;
     lrcsi_view_side side[3];
     for (int k = 0; k < 3; k++) {
@@ -67,8 +68,9 @@ int lrcsi_facet_cells_candidates(lrcsi_facet_cells *cells)
     lrcsi_marks_clear(&cells->listed, d->view->prepared->scene->facet_count);
     cells->listed.entry[cells->facet] = cells->listed.number;
     cells->order[cells->facet] = LRCSI_ORDER_DISJOINT;
-    lrcsi_grid_items items;
-    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+    lrcsi_grid_walk_facet(grid, &box, cells->facet, &walk);
+    while (lrcsi_grid_walk_next(&walk, &row)) {
+        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, row.y, row.x0, row.x1);
         if (!lrcsi_meter_take(d->meter, items.to - items.from)) {
             return 0;
         }

@@ -107,6 +107,21 @@ void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int co
     }
 }
 
+/* If a facet is in at least so many rows and columns of the grid, each row is limited to the
+   buckets between its sides: long facets across the grid meet few of the buckets of their boxes.
+   Heuristic: with fewer rows this saves less than it takes. */
+enum { MIN_ROWS = 3 };
+
+void lrcsi_grid_walk_facet(const lrcsi_grid *grid, const lrcsi_view_box *box, uint32_t facet,
+                           lrcsi_grid_walk *walk)
+{
+    const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, box);
+    lrcsi_grid_walk_begin(grid, all, walk);
+    if (all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS) {
+        lrcsi_grid_walk_limit(walk, grid->view->prepared->scene->facet[facet].corner, 3, 0);
+    }
+}
+
 lrcsi_grid_row lrcsi_grid_walk_limited(const lrcsi_grid_walk *walk, uint32_t y)
 {
     const lrcsi_grid *grid = walk->grid;

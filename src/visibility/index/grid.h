@@ -66,6 +66,10 @@ static inline void lrcsi_grid_walk_begin(const lrcsi_grid *grid, lrcsi_grid_rect
    edge (count 2). Rows and columns on the border extend to infinity. */
 void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near);
 
+/* A walk over the buckets that a facet of a given box may meet. */
+void lrcsi_grid_walk_facet(const lrcsi_grid *grid, const lrcsi_view_box *box, uint32_t facet,
+                           lrcsi_grid_walk *walk);
+
 /* Buckets x0 <= x < x1 of row y; x0 == x1: none. */
 typedef struct lrcsi_grid_row {
     uint32_t y, x0, x1;

@@ -18,10 +18,6 @@
    undecided, which is never wrong: both limits are heuristic. */
 #define MAX_LISTED 4096u
 #define MAX_TESTED 512u
-/* If a facet is in at least so many rows and columns of the grid, each row is limited to the
-   buckets between its sides: long facets across the grid meet few of the buckets of their boxes.
-   Heuristic: with fewer rows this saves less than it takes. */
-#define MIN_ROWS 3
 
 /* --- one event edge --------------------------------------------------------------------------- */
 
@@ -177,7 +173,6 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t facet = query->facet;
     const uint32_t component = query->component;
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
-    const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, &box);
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = lrcsi_meter_left(meter);
     const uint32_t allowed = metered < limit ? (uint32_t)metered : limit;
@@ -188,10 +183,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     int more = 0; /* an event was not examined because a limit was reached */
     lrcsi_grid_walk walk;
     lrcsi_grid_row row;
-    lrcsi_grid_walk_begin(grid, all, &walk);
-    if (all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS) {
-        lrcsi_grid_walk_limit(&walk, view->prepared->scene->facet[facet].corner, 3, 0);
-    }
+    lrcsi_grid_walk_facet(grid, &box, facet, &walk);
     while (!more && count < query->most && lrcsi_grid_walk_next(&walk, &row)) {
         for (uint32_t x = row.x0; x < row.x1 && !more && count < query->most; x++) {
             const lrcsi_grid_items bucket = lrcsi_grid_row_items(grid, row.y, x, x + 1);

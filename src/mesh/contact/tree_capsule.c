@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/* Capsules around the facets of a node, and the proof that two of them are apart.
+
+   A capsule contains all points within its radius r of its segment. That of a leaf is made from the
+   corners of its facets, that of a node above from the ends of the segments below it, each with the
+   radius of its capsule: all points of a segment are at most as far from another as its ends, since
+   the distance from a segment is a convex function. Its direction is the sum of the longest sides,
+   or of the segments below, all on one side. If its segment is a point, or its length so small that
+   products might underflow, r is infinite.
+
+   Errors. Let S be the largest |x| + |y| + |z| of the points. The distance of a point from the
+   stored segment's line is computed from differences, with an error of at most 16 u S; a point may
+   be beyond an end of the segment by at most 16 u S, because of rounding. CAPSULE_ERR S covers both
+   together.
+
+   Two lines with directions v and w, through a and b, are |(v x w) . (b - a)| / |v x w| apart.
+   Errors: each component of v x w has one of at most 4 u |v| |w|, since v and w have 1 u, and
+   b - a has 1 u. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one of at most
+   8 u |v| |w| + 2 u |v x w|. */
+#include "mesh/contact/tree_capsule.h"
+
+#include <math.h>
+
+#include "base/constant.h"
+#include "base/length.h"
+#include "base/outward.h"
+#include "base/range.h"
+#include "base/vec3.h"
+
+enum { CAPSULE_LANES = LRCSI_TREE_LANES, CAPSULE_POINTS = 3 * CAPSULE_LANES };
+
+#define CAPSULE_ERR  (64.0 * LRCSI_U)
+#define PRODUCT_ERR  (32.0 * LRCSI_U)
+#define LEAST_SQUARE 0x1p-900
+
+/* Balls that a capsule is to contain. */
+typedef struct capsule_balls {
+    const double *centre[CAPSULE_POINTS];
+    double radius[CAPSULE_POINTS];
+    int count;
+} capsule_balls;
+
+/* Adds a vector to a direction, or its opposite, whichever is on the direction's side. */
+static void add_direction(const double v[3], double direction[3])
+{
+    const double sign = lrcsi_vec3_dot(v, direction) < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < 3; k++) {
+        direction[k] += sign * v[k];
+    }
+}
+
+/* Adds a ball's centre and radius. */
+static void balls_add(capsule_balls *balls, const double *centre, double radius)
+{
+    balls->centre[balls->count] = centre;
+    balls->radius[balls->count++] = radius;
+}
+
+/* Places the segment: along `direction`, through the middle of the points' extents perpendicular to
+   it, from the first to the last of them. */
+static void segment_place(const capsule_balls *balls, const double direction[3],
+                          lrcsi_tree_capsule *capsule)
+{
+    lrcsi_box across = lrcsi_box_empty();
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (int i = 0; i < balls->count; i++) {
+        const double *x = balls->centre[i];
+        const double along = lrcsi_vec3_dot(direction, x);
+        const double from_line[3] = {x[0] - along * direction[0], x[1] - along * direction[1],
+                                     x[2] - along * direction[2]};
+        lrcsi_box_add(&across, from_line);
+        lrcsi_range_extend(along, &low, &high);
+    }
+    double middle[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (across.low[k] + across.high[k]);
+    }
+    const double along =
+        lrcsi_vec3_dot(direction, middle); /* its components are of several points */
+    for (int k = 0; k < 3; k++) {
+        capsule->end[0][k] = middle[k] + (low - along) * direction[k];
+        capsule->end[1][k] = middle[k] + (high - along) * direction[k];
+    }
+}
+
+/* The capsule along a direction around balls. */
+static lrcsi_tree_capsule capsule_make(const capsule_balls *balls, double direction[3])
+{
+    lrcsi_tree_capsule capsule = {.radius = 0.0};
+    const int found = lrcsi_length_normalise(direction);
+    double size = 0.0;
+    double v[3];
+    segment_place(balls, direction, &capsule);
+    lrcsi_vec3_between(capsule.end[0], capsule.end[1], v);
+    const double square = lrcsi_vec3_dot(v, v);
+    for (int i = 0; i < balls->count; i++) {
+        const double *x = balls->centre[i];
+        double from_end[3];
+        double product[3];
+        lrcsi_vec3_between(capsule.end[0], x, from_end);
+        lrcsi_vec3_cross(v, from_end, product);
+        const double distance = sqrt(lrcsi_vec3_dot(product, product) / square);
+        capsule.radius = lrcsi_max(capsule.radius, distance + balls->radius[i]);
+        size = lrcsi_max(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
+    }
+    capsule.radius = found && square > LEAST_SQUARE
+                         ? capsule.radius * LRCSI_OUTWARD_NANO + CAPSULE_ERR * size
+                         : HUGE_VAL;
+    return capsule;
+}
+
+/* Adds the corners of a facet, and its longest side to a direction. */
+static void balls_add_facet(const lrcs_point *vertex, const lrcs_facet *facet, capsule_balls *balls,
+                            double direction[3])
+{
+    double longest[3] = {0.0, 0.0, 0.0};
+    double most = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = vertex[facet->corner[k]].x;
+        double side[3];
+        lrcsi_vec3_between(a, vertex[facet->corner[(k + 1) % 3]].x, side);
+        const double square = lrcsi_vec3_dot(side, side);
+        if (square > most) {
+            most = square;
+            for (int i = 0; i < 3; i++) {
+                longest[i] = side[i];
+            }
+        }
+        balls_add(balls, a, 0.0);
+    }
+    add_direction(longest, direction);
+}
+
+lrcsi_tree_capsule lrcsi_tree_facet_capsule(const lrcs_point *vertex, const lrcs_facet *facet)
+{
+    capsule_balls balls = {.count = 0};
+    double direction[3] = {0.0, 0.0, 0.0};
+    balls_add_facet(vertex, facet, &balls, direction);
+    return capsule_make(&balls, direction);
+}
+
+static lrcsi_tree_capsule leaf_capsule(const lrcs_point *vertex, const lrcs_facet *facet,
+                                       const lrcsi_tree *tree, uint32_t leaf)
+{
+    capsule_balls balls = {.count = 0};
+    double direction[3] = {0.0, 0.0, 0.0};
+    const uint32_t first = leaf * CAPSULE_LANES;
+    for (uint32_t i = first; i < first + CAPSULE_LANES && i < tree->count; i++) {
+        balls_add_facet(vertex, &facet[tree->order[i]], &balls, direction);
+    }
+    return capsule_make(&balls, direction);
+}
+
+lrcsi_tree_capsule lrcsi_tree_lane_capsule(const lrcsi_tree *tree, int level, uint32_t b,
+                                           uint32_t lane)
+{
+    const lrcsi_tree_capsules *capsules = &tree->capsules[level][b];
+    lrcsi_tree_capsule capsule;
+    for (int k = 0; k < 3; k++) {
+        capsule.end[0][k] = capsules->end[0][k][lane];
+        capsule.end[1][k] = capsules->end[1][k][lane];
+    }
+    capsule.radius = capsules->radius[lane];
+    return capsule;
+}
+
+/* The capsule of a node above the leaves. */
+static lrcsi_tree_capsule node_capsule(const lrcsi_tree *tree, int level, uint32_t b)
+{
+    lrcsi_tree_capsule below[CAPSULE_LANES];
+    capsule_balls balls = {.count = 0};
+    double direction[3] = {0.0, 0.0, 0.0};
+    const uint32_t left = tree->nodes[level - 1] - b * CAPSULE_LANES;
+    for (uint32_t i = 0; i < CAPSULE_LANES && i < left; i++) {
+        double v[3];
+        below[i] = lrcsi_tree_lane_capsule(tree, level, b, i);
+        lrcsi_vec3_between(below[i].end[0], below[i].end[1], v);
+        add_direction(v, direction);
+        balls_add(&balls, below[i].end[0], below[i].radius);
+        balls_add(&balls, below[i].end[1], below[i].radius);
+    }
+    return capsule_make(&balls, direction);
+}
+
+void lrcsi_tree_fill_capsules(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree)
+{
+    for (int level = 0; level < tree->levels - 1; level++) {
+        for (uint32_t b = 0; b < tree->nodes[level]; b++) {
+            const lrcsi_tree_capsule capsule =
+                level == 0 ? leaf_capsule(vertex, facet, tree, b) : node_capsule(tree, level, b);
+            lrcsi_tree_capsules *to = &tree->capsules[level + 1][b / CAPSULE_LANES];
+            for (int k = 0; k < 3; k++) {
+                to->end[0][k][b % CAPSULE_LANES] = capsule.end[0][k];
+                to->end[1][k][b % CAPSULE_LANES] = capsule.end[1][k];
+            }
+            to->radius[b % CAPSULE_LANES] = capsule.radius;
+        }
+    }
+    tree->has_capsules = 1;
+}
+
+int lrcsi_tree_capsules_apart(const lrcsi_tree_capsule *a, const lrcsi_tree_capsule *b)
+{
+    double v[3];
+    double w[3];
+    double between[3];
+    double product[3];
+    lrcsi_vec3_between(a->end[0], a->end[1], v);
+    lrcsi_vec3_between(b->end[0], b->end[1], w);
+    lrcsi_vec3_between(a->end[0], b->end[0], between);
+    lrcsi_vec3_cross(v, w, product);
+    const double square = lrcsi_vec3_dot(product, product);
+    const double lengths = sqrt(lrcsi_vec3_dot(v, v) * lrcsi_vec3_dot(w, w));
+    const double apart = fabs(lrcsi_vec3_dot(product, between)) -
+                         PRODUCT_ERR * lengths * sqrt(lrcsi_vec3_dot(between, between));
+    const double needed = (a->radius + b->radius) * (sqrt(square) + PRODUCT_ERR * lengths);
+    return square > LEAST_SQUARE && apart > needed * LRCSI_OUTWARD_NANO;
+}
