@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The margins along the event edges of a ball in front of the straight wall of a cylinder, cone or
-   frustum: their signed area against the circle of the true ball; and that no margin is known where
+   frustum, or of a plane face: their signed area against the circle of the true ball; and that no margin is known where
    one of the conditions of wall_margin.c does not hold. */
 #include "visibility/proximity/proximity_band.h"
 
@@ -128,6 +128,50 @@ static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
     }
 }
 
+/* A plane face of a box, turned or not, or a plate: all of the margin is known, and nothing else is
+   uncertain. */
+static void margins_on_plane_faces_have_their_sign(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.1, -0.2, 1};
+    const lrcs_shape shapes[2] = {{.kind = LRCS_SHAPE_BOX, .size = {3, 2.5, 1}},
+                                  {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}}};
+    for (int i = 0; i < 8; i++) {
+        lrcs_recipe_part part[2] = {part_at(shapes[i % 2], 0, 0, 0),
+                                    ball_at(0.3, 0.2 + 0.1, -0.15 - 0.2, 1.5)};
+        if (i & 2) {
+            part[WALL].place.rotate[0][0] = part[WALL].place.rotate[1][1] = 0.8;
+            part[WALL].place.rotate[1][0] = 0.6;
+            part[WALL].place.rotate[0][1] = -0.6;
+        }
+        find_margins(part, 2, i & 4 ? 1e-3 : 1e-4, d);
+        const wall_sums sum = sum_of_wall();
+        const double want = polygon_beyond_circle(0.3);
+        assert_true(sum.facets == 2); /* both triangles of the face */
+        check_abs(sum.area, want, sum.loose);
+        check_abs(sum.area, want, 0.02 * fabs(want));
+        check_most(sum.loose, 0.1 * (sum.all_gain + sum.all_loss));
+        check_most(sum.gain + sum.loss, 1e-9 * (sum.all_gain + sum.all_loss));
+    }
+}
+
+/* The edge between two faces of a box runs below the ball: F differs on both sides of it, and
+   margins across it have bands. */
+static void margins_across_an_edge_of_a_box_have_bands(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 1, 0.1};
+    const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {2, 2, 2}};
+    lrcs_recipe_part part[2] = {part_at(box, 0, 0, 0), ball_at(0.3, 2, 2, 0.1)};
+    find_margins(part, 2, 1e-3, d);
+    const wall_sums sum = sum_of_wall();
+    assert_true(sum.facets >= 2 && sum.gain + sum.loss > 1e-3 * (sum.all_gain + sum.all_loss));
+    check_most(sum.gain + sum.loss, 0.2 * (sum.all_gain + sum.all_loss));
+    lrcs_recipe_part meeting[2] = {part_at(box, 0, 0, 0), ball_at(0.3, 1.1, 0, 0.1)};
+    find_margins(meeting, 2, 1e-3, d); /* (b) */
+    assert_true(sum_of_wall().facets == 0 && sum_of_wall().all_gain > 0);
+}
+
 /* The back of a closed wall is never seen, also where its material is two-sided and an open part
    keeps the scene from being solid: no margin counts twice. */
 static void two_sided_walls_have_the_same_margins(void **state)
@@ -225,6 +269,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
+        cmocka_unit_test(margins_on_plane_faces_have_their_sign),
+        cmocka_unit_test(margins_across_an_edge_of_a_box_have_bands),
         cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
         cmocka_unit_test(no_margin_is_known_without_the_conditions),

@@ -20,7 +20,7 @@ typedef struct lrcsi_areas {
     const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
     const lrcsi_round_terms *round_terms; /* what facets on curved walls add; NULL: not known */
     const lrcsi_flat_face *face;      /* [part_count]: margins on flat faces; NULL: none are used */
-    const lrcsi_masked_band *margins; /* its margins on straight walls are used; NULL: none are */
+    const lrcsi_masked_band *margins; /* its margins facet by facet are used; NULL: none are */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */

@@ -42,13 +42,13 @@ static inline int lrcsi_patch_is_visible(int state)
 }
 
 /* The fractions of a facet of which a side that reflects faces the laser. margins: 1 if the margins
-   on straight walls are accounted for elsewhere. */
+   (visibility/proximity/wall_margin.h) are accounted for elsewhere. */
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible_area *visible,
                                                const lrcsi_masked_band *band, int margins);
 
-/* The margins of other parts' event edges on a facet of a straight wall; NULL if it has none or is
-   hidden by other parts. */
+/* The margins of other parts' event edges on a facet; NULL if it has none or is hidden by other
+   parts. */
 static inline const lrcsi_wall_margin *lrcsi_wall_margin_of(const lrcsi_masked_band *band,
                                                             uint32_t facet)
 {

@@ -71,9 +71,9 @@
    F_i| and S a (1 + a) sup F. For a facet without bands (mismatch 0) the comparison by the map
    gives the same, since v and w are constant on it and around it.
 
-   On a straight wall the sum may include the margins of other parts' event edges
+   On a straight wall, a box or a plate the sum may include the margins of other parts' event edges
    (visibility/proximity/wall_margin.c): the area by which the true shapes leave more visible in
-   them is attributed to the facets of the wall, A to this one, and A F_i is added to M. Then g and
+   them is attributed to the facets there, A to this one, and A F_i is added to M. Then g and
    l are the fractions of the other bands, and T - M has one more term: the integral of F over the
    margins, less A F_i for each facet, where F is that of a patch next to the facet's. Let D be a
    bound on the area in the margins, and E one on the error of A, both divided by the facet's
@@ -220,7 +220,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     int is_curved = bounds.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
     const lrcsi_wall_margin *margin =
-        is_curved && in->margins && in->band ? lrcsi_wall_margin_of(in->band, facet) : NULL;
+        in->margins && in->band ? lrcsi_wall_margin_of(in->band, facet) : NULL;
     int is_certain = !margin && (!in->band || lrcsi_masked_mismatch(in->band, facet) == 0);
     double area = 0.5 * p->normal[facet].length;
     double visible_max = is_curved && state == LRCSI_PATCH_HIDDEN
@@ -266,8 +266,8 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
             lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &bounds);
     } else {
         at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &bounds, patches);
-        at.fractions = lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band,
-                                                in->margins && is_curved);
+        at.fractions =
+            lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band, in->margins);
     }
     lrcsi_tessellation unit = {at.fractions.gain * at.deviation.of_f.value_max, /* 6 */
                                at.fractions.loss * at.deviation.of_f.value_max, 0, 0, 0};

@@ -21,7 +21,7 @@ typedef struct lrcsi_tessellation_input {
                                          visible areas include what could be hidden */
     const lrcsi_flat_face *face;   /* [part_count]: margins on flat faces that the sum includes;
                                       NULL: it includes none */
-    int margins;                   /* 1: the sum includes the margins on straight walls
+    int margins;                   /* 1: the sum includes the margins of facets
                                       (lrcsi_wall_margin_area) */
 } lrcsi_tessellation_input;
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which event edges have margins over one straight wall alone, and adds the areas of these
-   to the facets that they meet. What that adds to sigma is decided in
+/* Decides which event edges have margins over one straight wall, or one plane face of a box or plate,
+   alone, and adds the areas of these to the facets that they meet. What that adds to sigma is decided in
    integrate/wall/tessellation.c. Terms and conditions are those of
    visibility/proximity/proximity_band.c; K, K' and k those of visibility/proximity/outline.h; w, N,
    (c) and (d) those of visibility/proximity/face_margin.c.
 
-   P is a closed part with a straight wall (a cylinder, cone or frustum), Q another part with an
-   outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in
+   P is a closed part with a straight wall (a cylinder, cone or frustum), or a box or plate, all of
+   whose faces count as its wall; there x is y, and delta 0. Q is another part with an outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in
    projection. The points x of the true wall and y of the facets that the map relates are in
    projection at most delta <= k apart. The margin of the edge is known on the wall if
    (a) the facets of P that face the laser and that N meets are all on the wall, and contain N in
@@ -37,8 +37,8 @@
    near. Beyond the ends of the edge, points are attributed as in face_margin.c.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
-   It is tested that these are within one row and one sector of it, so that F of their patches is
-   not far from its own. On another facet the same area in projection stands for cos / cos' times as
+   It is tested that these are within one row and one sector of it, or on the same plane face, so
+   that F of their patches is not far from its own. On another facet the same area in projection stands for cos / cos' times as
    much of the wall as on its own: where the margin may be on it, F sup |cos / cos' - 1| is an
    error, twice if F differs as well. */
 #include "visibility/proximity/wall_margin.h"
@@ -54,9 +54,15 @@
 
 /* An edge whose margin meets more facets is not used: heuristic. */
 #define MARGIN_FACETS_MAX 1024u
+/* Nor one that may be near a facet with more pairs than this: a large facet that others intersect
+   may have as many as these have facets. */
+#define MARGIN_PAIRS_MAX 64u
 /* Nor one whose margin may be on facets that are so much more oblique than those to which it is
    attributed. */
 #define COS_RATIO_ERR_MAX 1.0
+
+/* What is left of the list of a facet's pairs: all; those that matter; those, but too many. */
+enum { PAIRS_ALL, PAIRS_REDUCED, PAIRS_MANY };
 
 struct lrcsi_margin_facet {
     uint32_t facet;
@@ -80,43 +86,85 @@ static uint32_t margin_facets_most(const lrcs_prepared *p)
 
 /* --- facets of a wall ------------------------------------------------------------------------- */
 
+/* Removes the pairs of a facet with parts that are in front of its own or behind it: of such parts
+   (1) does not matter. Returns 0 if the limit of steps is reached. */
+static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
+{
+    lrcsi_event_bands *bands = job->bands;
+    const lrcs_prepared *p = bands->view->prepared;
+    uint32_t last = LRCS_NONE; /* the part of the pair before */
+    uint32_t left = 0;
+    int separated = 0;
+    for (uint32_t *at = &job->first_pair[facet]; *at != LRCS_NONE;) {
+        const uint32_t part = p->scene->facet_part[p->proximity.pair[*at].other];
+        if (!lrcsi_meter_take(bands->meter, 1)) {
+            return 0;
+        }
+        if (part != last) {
+            double unproved = 0;
+            separated =
+                lrcsi_part_is_separated(&bands->orders, facet, part, &unproved) && unproved == 0;
+            last = part;
+        }
+        if (separated) {
+            *at = job->next_pair[*at];
+        } else {
+            at = &job->next_pair[*at];
+            left++;
+        }
+    }
+    job->pairs[facet] = left > MARGIN_PAIRS_MAX ? PAIRS_MANY : PAIRS_REDUCED;
+    return 1;
+}
+
 /* Is (1) excluded for the points of a facet that are in N? A facet of another part within the slack
    of such a point is, in projection, within the slack of N. */
-static int facet_is_apart(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
+static int facet_is_apart(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const uint32_t own = p->scene->facet_part[facet];
-    int apart = 1;
+    int apart = (job->pairs[facet] != PAIRS_ALL || pairs_reduce(job, facet)) &&
+                job->pairs[facet] != PAIRS_MANY;
     for (uint32_t i = job->first_pair[facet]; i != LRCS_NONE && apart; i = job->next_pair[i]) {
         const uint32_t other = p->proximity.pair[i].other;
-        const uint32_t part = p->scene->facet_part[other];
-        double unproved = 0;
-        const double slack = m->width + m->err + lrcsi_proximity_slack(p, own, part);
+        const double slack =
+            m->width + m->err + lrcsi_proximity_slack(p, own, p->scene->facet_part[other]);
         const lrcsi_edge_rectangle box =
             lrcsi_edge_rectangle_make(bands->view, other, m->edge, slack);
-        apart =
-            lrcsi_meter_take(bands->meter, 1) &&
-            (lrcsi_edge_rectangle_slice(bands->view, other, &box).count == 0 ||
-             (lrcsi_part_is_separated(&bands->orders, facet, part, &unproved) && unproved == 0));
+        apart = lrcsi_meter_take(bands->meter, 1) &&
+                lrcsi_edge_rectangle_slice(bands->view, other, &box).count == 0;
     }
     return apart;
 }
 
-/* May a facet have margins? It is on a straight wall, and not seen edge-on to within rounding. */
+/* The position of a facet on a straight wall, or on a box or plate, of which each plane face has
+   two successive facets (mesh/shape/tessellate.c), and counts as a row that is next to no other.
+   Returns 0 if it is on neither. */
+static int facet_position(const lrcs_prepared *p, uint32_t facet, lrcsi_wall_patch *at)
+{
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const uint32_t number = facet - part->first_facet;
+    if (lrcsi_shape_is_plane_faced(part->kind)) {
+        *at = (lrcsi_wall_patch){.row = number / 2 * 2};
+        return part->solid || part->kind == LRCS_SHAPE_PLATE;
+    }
+    return part->rigid && part->bounds.reach > 0 && part->solid &&
+           !lrcsi_proximity_on_round_wall(p, facet) &&
+           lrcsi_tessellate_patch(&part->shape, &part->divisions, number, at);
+}
+
+/* May a facet have margins? It is on a straight wall, a box or a plate, and not seen edge-on to
+   within rounding. */
 static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    const uint32_t index = p->scene->facet_part[facet];
-    const lrcs_part *part = &p->scene->part[index];
     lrcsi_wall_patch at;
-    return part->rigid && part->bounds.reach > 0 && !p->skip[facet] && view->facing[facet] > 0 &&
-           lrcsi_view_casts(view, facet) && p->scene->part[index].solid &&
-           !lrcsi_proximity_on_round_wall(p, facet) &&
+    return !p->skip[facet] && view->facing[facet] > 0 && lrcsi_view_casts(view, facet) &&
            lrcsi_view_incidence(view, facet).cos_theta >
-               p->proximity.grazing_cos[index] + LRCSI_VIEW_COS_ERR &&
-           lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at);
+               p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR &&
+           facet_position(p, facet, &at);
 }
 
 /* delta of a facet. */
@@ -174,12 +222,11 @@ static double margin_facet_slack(const lrcsi_edge_margin *m, double lateral)
 }
 
 /* Makes the data of a facet. Returns 0 if its part of the wall cannot be used. */
-static int margin_facet_make(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                             uint32_t facet, lrcsi_margin_facet *one)
+static int margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet,
+                             lrcsi_margin_facet *one)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     double unproved = 0;
     *one = (lrcsi_margin_facet){.facet = facet, .lateral = facet_lateral(job, facet)};
     if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
@@ -188,7 +235,7 @@ static int margin_facet_make(const lrcsi_wall_margins *job, const lrcsi_edge_mar
         unproved > 0) {
         return 0;
     }
-    lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &one->patch);
+    facet_position(p, facet, &one->patch);
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(view, facet, m->edge, margin_facet_slack(m, one->lateral));
     const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
@@ -440,7 +487,7 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
         lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_margin_facet)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
 
@@ -456,10 +503,11 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
         lrcsi_work_take(work, margin_facets_most(bands->view->prepared), sizeof *job->facet);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
+    job->pairs = lrcsi_work_take_zero(work, facets, 1);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
-    if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->first_pair ||
-        !job->next_pair) {
+    if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
+        !job->first_pair || !job->next_pair) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {

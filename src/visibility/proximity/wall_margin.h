@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Straight walls behind the outlines of true curved shapes and of their facets: in the margins
-   along event edges where nothing else is near, how much more of each facet of a wall the true
-   shapes leave visible than the facets do. */
+/* Straight walls, and plane faces of boxes and plates, behind the outlines of true curved shapes and
+   of their facets: in the margins along event edges where nothing else is near, how much more of
+   each facet the true shapes leave visible than the facets do. */
 #ifndef LRCSI_WALL_MARGIN_H
 #define LRCSI_WALL_MARGIN_H
 
@@ -36,6 +36,7 @@ typedef struct lrcsi_wall_margins {
     lrcs_work *work;
     uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
                                          next one of the same facet; LRCS_NONE: no further one */
+    unsigned char *pairs;             /* facet: what is left of them */
     lrcsi_wall_margin *margin;        /* facet: to be filled */
     lrcsi_wall_event *event;          /* event */
     lrcsi_margin_facet *facet;        /* those of the edge under examination */
