@@ -89,10 +89,10 @@ int flight_main(void)
 cycle 1 status 0 stale 0 flags 0 steps 44232 sigma mm2 30579550 bound mm2 1218
 cycle 2 status 0 stale 0 flags 0 steps 37102 sigma mm2 1697634 bound mm2 165
 cycle 3 status 0 stale 0 flags 0 steps 35485 sigma mm2 7070253 bound mm2 123
-cycle 4 status 0 stale 0 flags 0 steps 21036 sigma mm2 1076713 bound mm2 42
-cycle 5 status -1 stale 1 flags 0 steps 21036 sigma mm2 1076713 bound mm2 42
-cycle 6 status -6 stale 2 flags 0 steps 21036 sigma mm2 1076713 bound mm2 42
-cycle 7 status 0 stale 0 flags 0 steps 30673 sigma mm2 1671490 bound mm2 113
+cycle 4 status 0 stale 0 flags 0 steps 21036 sigma mm2 1076713 bound mm2 36
+cycle 5 status -1 stale 1 flags 0 steps 21036 sigma mm2 1076713 bound mm2 36
+cycle 6 status -6 stale 2 flags 0 steps 21036 sigma mm2 1076713 bound mm2 36
+cycle 7 status 0 stale 0 flags 0 steps 30673 sigma mm2 1671490 bound mm2 109
 cycle 8 status 0 stale 0 flags 0 steps 8950 sigma mm2 3148562 bound mm2 0
 end: status 0 failures 2
 */

@@ -313,10 +313,11 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     return LRCS_OK;
 }
 
-/* A facet whose box is near more than MANY_NEAR facets of other parts is also compared with them
-   by capsules (mesh/contact/tree_capsule.h); if these then separate at least NEAR_NODES_APART nodes from
-   it, so is the next facet, from the start. The capsules of the tree are filled once such facets
-   have met CAPSULES_COST times as many others as there are facets: heuristics. */
+/* If the box of a facet is near those of more than MANY_NEAR facets, the nodes of the tree that are
+   left are also compared with it by capsules (mesh/contact/tree_capsule.h); if these separate at
+   least NEAR_NODES_APART nodes from it, so are those of the next facet, from the start. The
+   capsules of the tree are filled once such facets have met CAPSULES_COST times as many others as
+   there are facets: heuristics. */
 enum { MANY_NEAR = 32, NEAR_NODES_APART = 4, CAPSULES_COST = 2 };
 
 /* The search for pairs. */
@@ -358,7 +359,7 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search,
     if (search->capsules_pay) {
         narrow_search(p, facet, within, &walk);
     }
-    for (int met = 0; status == LRCS_OK && (at = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
+    for (uint32_t met = 0; status == LRCS_OK && (at = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         uint32_t other = tree->order[at];
         search->excess += met >= MANY_NEAR;
         if (!tree->has_capsules && search->excess > (uint64_t)CAPSULES_COST * tree->count) {

@@ -320,9 +320,9 @@ static uint64_t pierced_steps(double tolerance, uint32_t *facets)
     return r.steps;
 }
 
-/* 7.4e6: the cells along the contact of facets that are almost edge-on were left undecided, and
-   these facets processed one by one. */
-static void cells_near_contacts_of_facets_on_edge_are_halved(void **state)
+/* 7.4e6: some large facets that both shapes have in front of them were processed alone, for an
+   accuracy far beyond that of the shapes. */
+static void intersecting_shapes_are_divided_together(void **state)
 {
     (void)state;
     uint32_t facets;
@@ -343,7 +343,7 @@ int main(void)
         cmocka_unit_test(few_facets_crossed_by_many_edges_are_divided_together),
         cmocka_unit_test(turned_stack_takes_linear_steps),
         cmocka_unit_test(open_wall_hides_its_inside_once),
-        cmocka_unit_test(cells_near_contacts_of_facets_on_edge_are_halved),
+        cmocka_unit_test(intersecting_shapes_are_divided_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -300,6 +300,37 @@ static void capsules_contain_what_is_below_them(void **state)
     }
 }
 
+/* Facets of 2^-47 with sides along one direction, far apart in a plane perpendicular to it: points
+   are beyond the ends of segments that are so short that rounding turns them. */
+static void capsules_of_tiny_facets_contain_what_is_below_them(void **state)
+{
+    (void)state;
+    enum { N = 64 };
+    const double s = 0x1p-47;
+    for (int round = 0; round < 50; round++) {
+        const double middle = next_number() - 0.5;
+        for (uint32_t f = 0; f < N; f++) {
+            const double p = 0.5 * (next_number() - 0.5) + 0.0625 * (f / 8);
+            const double along[3][2] = {{0, 0}, {s, s}, {0.75 * s, 0.25 * s}};
+            for (uint32_t c = 0; c < 3; c++) {
+                vertex[3 * f + c] =
+                    (lrcs_point){{middle + p + along[c][0], middle - p + along[c][1], 0.25}};
+                facet[f].corner[c] = 3 * f + c;
+            }
+        }
+        lrcsi_tree tree = make_tree(N, NULL, NULL);
+        lrcsi_tree_fill_capsules(vertex, facet, &tree);
+        for (uint32_t place = 0; place < N; place++) {
+            const uint32_t lane = place / LRCSI_TREE_LANES;
+            const lrcsi_tree_capsule c = lrcsi_tree_lane_capsule(&tree, 1, 0, lane);
+            for (int k = 0; k < 3; k++) {
+                const double *x = vertex[facet[tree.order[place]].corner[k]].x;
+                assert_true(outside_capsule(&c, x) <= 0);
+            }
+        }
+    }
+}
+
 /* Facet f + 1 has a corner in the interior of facet f. */
 static void capsules_leave_out_nothing_that_meets(void **state)
 {
@@ -351,6 +382,7 @@ static void capsules_tell_apart_long_facets_that_cross(void **state)
     assert_true(many < 6 * few); /* nearly in proportion to the strips */
 }
 
+/* Nor one so small that products underflow. */
 static void a_capsule_of_a_point_bounds_nothing(void **state)
 {
     (void)state;
@@ -360,6 +392,11 @@ static void a_capsule_of_a_point_bounds_nothing(void **state)
     const lrcsi_tree_capsule point = lrcsi_tree_facet_capsule(vertex, &facet[0]);
     const lrcsi_tree_capsule other = lrcsi_tree_facet_capsule(vertex, &facet[1]);
     assert_true(point.radius == HUGE_VAL);
+    vertex[0] = (lrcs_point){{0, 0, 0}};
+    vertex[1] = (lrcs_point){{0x1p-290, 0, 0}};
+    vertex[2] = (lrcs_point){{0, 0x1p-291, 0}};
+    facet[0] = (lrcs_facet){{0, 1, 2}};
+    assert_true(lrcsi_tree_facet_capsule(vertex, &facet[0]).radius == HUGE_VAL);
     assert_false(lrcsi_tree_capsules_apart(&point, &other));
     assert_false(lrcsi_tree_capsules_apart(&other, &point));
 }
@@ -541,6 +578,7 @@ int main(void)
         cmocka_unit_test(the_join_finds_all_pairs_of_boxes_that_meet_once_each),
         cmocka_unit_test(slabs_leave_out_no_neighbours),
         cmocka_unit_test(capsules_contain_what_is_below_them),
+        cmocka_unit_test(capsules_of_tiny_facets_contain_what_is_below_them),
         cmocka_unit_test(capsules_leave_out_nothing_that_meets),
         cmocka_unit_test(capsules_tell_apart_long_facets_that_cross),
         cmocka_unit_test(a_capsule_of_a_point_bounds_nothing),

@@ -4,6 +4,8 @@
    one of the conditions of wall_margin.c does not hold. */
 #include "visibility/proximity/proximity_band.h"
 
+#include "mesh/shape/revolution.h"
+#include "mesh/shape/tessellate.h"
 #include "recipe.h"
 
 static lrcs_scene scene;
@@ -265,6 +267,124 @@ static void without_steps_there_are_bands(void **state)
     assert_true(with > 0 && without > 0);
 }
 
+/* --- the shadow of an edge that is exact ------------------------------------------------------ */
+
+/* A point of the body frame, m, where the plane x = 6 is met along d, in the coordinates of an edge
+   through (6, 0, 1.5): [0] along it, [1] into the plate. */
+static void edge_coordinates(const double x[3], const double d[3], double tilt, double at[2])
+{
+    const double t = (6 - x[0]) / d[0];
+    const double y = x[1] + t * d[1];
+    const double z = x[2] + t * d[2] - 1.5;
+    at[0] = -sin(tilt) * y + cos(tilt) * z;
+    at[1] = cos(tilt) * y + sin(tilt) * z;
+}
+
+/* The point of the true wall that a point of a facet stands for: on a cylinder or cone around z. */
+static void true_point(uint32_t facet, const double y[3], double x[3])
+{
+    const lrcs_part *part = &scene.part[WALL];
+    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    lrcsi_wall_patch at;
+    assert_true(lrcsi_tessellate_patch(&part->shape, &part->divisions, facet, &at));
+    const double middle = (2.0 * at.sector + 1.0) * body.half;
+    const double radial = cos(middle) * y[0] + sin(middle) * y[1];
+    const double around = cos(middle) * y[1] - sin(middle) * y[0];
+    const double radius = radial / (body.vertex_ratio * cos(body.half));
+    const double angle = middle + around / (radial * tan(body.half)) * body.half;
+    x[0] = radius * cos(angle);
+    x[1] = radius * sin(angle);
+    x[2] = y[2];
+}
+
+/* Adds what of a facet is gained and lost to first order: the displacement of x from y across the
+   edge, where the edge's shadow crosses the facet; and what its bands say. Areas in the plane of
+   the plate. */
+static void add_displaced(uint32_t facet, const double d[3], double tilt, double found[2],
+                          double bands_of[2])
+{
+    enum { POINTS = 40 };
+    double corner[3][3];
+    double at[3][2];
+    double end[2][3];
+    double end_at[2][2];
+    int ends = 0;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            corner[k][i] =
+                ldexp(lrcsi_prepared_corner(view.prepared, facet, k)[i], view.prepared->exponent);
+        }
+        edge_coordinates(corner[k], d, tilt, at[k]);
+    }
+    const double area = 0.5 * fabs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
+                                   (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
+    for (int k = 0; k < 3; k++) {
+        const int n = (k + 1) % 3;
+        if ((at[k][1] > 0) != (at[n][1] > 0)) {
+            const double t = at[k][1] / (at[k][1] - at[n][1]);
+            for (int i = 0; i < 3; i++) {
+                end[ends][i] = corner[k][i] + t * (corner[n][i] - corner[k][i]);
+            }
+            edge_coordinates(end[ends], d, tilt, end_at[ends]);
+            ends++;
+        }
+    }
+    bands_of[0] += band.gain[facet] * area;
+    bands_of[1] += band.loss[facet] * area;
+    double sum[2] = {0, 0};
+    for (int j = 0; j < POINTS && ends == 2; j++) {
+        double y[3];
+        double x[3];
+        double displaced[2];
+        for (int i = 0; i < 3; i++) {
+            y[i] = end[0][i] + (j + 0.5) / POINTS * (end[1][i] - end[0][i]);
+        }
+        true_point(facet, y, x);
+        edge_coordinates(x, d, tilt, displaced);
+        const double length = fabs(end_at[1][0] - end_at[0][0]) / POINTS;
+        sum[0] += length * fmax(0, -displaced[1]); /* y is hidden, x visible */
+        sum[1] += length * fmax(0, displaced[1]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const double fraction = i == 0 ? band.gain[facet] : band.loss[facet];
+        check_most(0.9 * sum[i], fraction * area);
+        found[i] += sum[i];
+    }
+}
+
+/* Half of a sector's points are displaced outward, by at most half as much as the others inward.
+   Without their signs both fractions were at least five times what is displaced. */
+static void bands_below_an_exact_edge_are_where_points_are_displaced(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0.05, 0.1};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {40, 40, 0}};
+    const lrcs_shape *const walls[2] = {&cylinder, &cone};
+    static const double tilts[4] = {1.5707963267948966, 1.2, 0.7, 2.6};
+    for (int i = 0; i < 8; i++) {
+        const double tilt = tilts[i / 2]; /* from y; the plate is on the side of higher z */
+        lrcs_recipe_part part[2] = {part_at(*walls[i % 2], 0, 0, 0),
+                                    part_at(plate, 6, 20 * cos(tilt), 1.5 + 20 * sin(tilt))};
+        const double turn[3][3] = {
+            {0, 0, 1}, {cos(tilt), -sin(tilt), 0}, {sin(tilt), cos(tilt), 0}};
+        memcpy(part[1].place.rotate, turn, sizeof turn);
+        find_margins(part, 2, 1e-4, d);
+        double found[2] = {0, 0};
+        double bands_of[2] = {0, 0};
+        for (uint32_t f = 0; f < scene.facet_count; f++) {
+            if (scene.facet_part[f] == WALL && scene.facet_smooth[f] && view.facing[f] > 0 &&
+                lrcsi_view_incidence(&view, f).cos_theta > 0.1) {
+                add_displaced(f, d, tilt, found, bands_of);
+            }
+        }
+        print_message("# %d: gained %g of %g, lost %g of %g\n", i, found[0], bands_of[0], found[1],
+                      bands_of[1]);
+        assert_true(found[0] > 0 && found[1] > 0);
+        check_most(bands_of[0], 3.5 * found[0]);
+        check_most(bands_of[1], 3.5 * found[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +396,7 @@ int main(void)
         cmocka_unit_test(no_margin_is_known_without_the_conditions),
         cmocka_unit_test(hidden_margins_add_nothing),
         cmocka_unit_test(without_steps_there_are_bands),
+        cmocka_unit_test(bands_below_an_exact_edge_are_where_points_are_displaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

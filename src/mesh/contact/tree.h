@@ -31,7 +31,7 @@ typedef struct lrcsi_tree_slab {
     double size; /* the largest |x| + |y| + |z| of the corners */
 } lrcsi_tree_slab;
 
-/* All points within `radius` of a segment; infinite if it bounds nothing. */
+/* All points within `radius` of a segment. If the radius is infinite, it bounds nothing. */
 typedef struct lrcsi_tree_capsule {
     double end[2][3], radius;
 } lrcsi_tree_capsule;
@@ -61,8 +61,8 @@ typedef struct lrcsi_tree {
     lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS];       /* from level 1 on: of the nodes below */
     int has_slabs;                                    /* 0: not yet filled */
     lrcsi_tree_capsules *capsules[LRCSI_TREE_LEVELS]; /* from level 1 on, likewise */
-    int has_capsules;
-    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS]; /* of each node that has a label, if filled */
+    int has_capsules;                                 /* 0: not yet filled */
+    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];         /* of each node that has a label, if filled */
 } lrcsi_tree;
 
 /* A lane's box. */

@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* Capsules around the facets of a node, and the proof that two of them are apart.
 
-   A capsule contains all points within its radius r of its segment. That of a leaf is made from the
-   corners of its facets, that of a node above from the ends of the segments below it, each with the
-   radius of its capsule: all points of a segment are at most as far from another as its ends, since
-   the distance from a segment is a convex function. Its direction is the sum of the longest sides,
-   or of the segments below, all on one side. If its segment is a point, or its length so small that
-   products might underflow, r is infinite.
+   A capsule contains all points within its radius r of its segment. That of a leaf contains the
+   corners of its facets; that of a node above contains, for both ends of each segment below, the
+   ball about that end of the radius of its capsule. Then it contains those capsules, because the
+   distance from its segment is a convex function: along a segment it is largest at an end. Its
+   direction is the sum of the longest sides, or of the segments below, all on one side. If its
+   segment is so short that products might underflow, or a point, r is infinite: the capsule bounds
+   nothing.
 
-   Errors. Let S be the largest |x| + |y| + |z| of the points. The distance of a point from the
-   stored segment's line is computed from differences, with an error of at most 16 u S; a point may
-   be beyond an end of the segment by at most 16 u S, because of rounding. CAPSULE_ERR S covers both
-   together.
+   Errors. Let S be the largest |x| + |y| + |z| of the points, v the vector along the stored segment,
+   f that from its first end to a point. The distance of the point from the line, |v x f| / |v|, has
+   an error of at most 16 u S, and the length by which it is beyond an end, from v . f, one of at
+   most 20 u S: their sum bounds the distance from the segment, and CAPSULE_ERR S both errors. If
+   |v|^2 exceeds LEAST_LENGTH, what underflows in |v x f|^2 adds less than u S.
 
    Two lines with directions v and w, through a and b, are |(v x w) . (b - a)| / |v x w| apart.
-   Errors: each component of v x w has one of at most 4 u |v| |w|, since v and w have 1 u, and
-   b - a has 1 u. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one of at most
-   8 u |v| |w| + 2 u |v x w|. */
+   Errors: v, w and b - a have errors of 1 u in each component, so each component of v x w has one of
+   at most 4 u |v| |w|. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one of at
+   most 8 u |v| |w| + 3 u |v x w|. */
 #include "mesh/contact/tree_capsule.h"
 
 #include <math.h>
@@ -31,7 +33,8 @@ enum { CAPSULE_LANES = LRCSI_TREE_LANES, CAPSULE_POINTS = 3 * CAPSULE_LANES };
 
 #define CAPSULE_ERR  (64.0 * LRCSI_U)
 #define PRODUCT_ERR  (32.0 * LRCSI_U)
-#define LEAST_SQUARE 0x1p-900
+#define LEAST_LENGTH 0x1p-450 /* squared, of a segment */
+#define LEAST_CROSS  0x1p-900 /* squared, of a product of two */
 
 /* Balls that a capsule is to contain. */
 typedef struct capsule_balls {
@@ -76,8 +79,8 @@ static void segment_place(const capsule_balls *balls, const double direction[3],
     for (int k = 0; k < 3; k++) {
         middle[k] = 0.5 * (across.low[k] + across.high[k]);
     }
-    const double along =
-        lrcsi_vec3_dot(direction, middle); /* its components are of several points */
+    /* Each of its coordinates may come from another point: it need not be perpendicular yet. */
+    const double along = lrcsi_vec3_dot(direction, middle);
     for (int k = 0; k < 3; k++) {
         capsule->end[0][k] = middle[k] + (low - along) * direction[k];
         capsule->end[1][k] = middle[k] + (high - along) * direction[k];
@@ -94,19 +97,23 @@ static lrcsi_tree_capsule capsule_make(const capsule_balls *balls, double direct
     segment_place(balls, direction, &capsule);
     lrcsi_vec3_between(capsule.end[0], capsule.end[1], v);
     const double square = lrcsi_vec3_dot(v, v);
+    if (!found || !(square > LEAST_LENGTH)) {
+        capsule.radius = HUGE_VAL;
+        return capsule;
+    }
     for (int i = 0; i < balls->count; i++) {
         const double *x = balls->centre[i];
         double from_end[3];
         double product[3];
         lrcsi_vec3_between(capsule.end[0], x, from_end);
         lrcsi_vec3_cross(v, from_end, product);
+        const double along = lrcsi_vec3_dot(v, from_end);
+        const double beyond = lrcsi_max3(0.0, -along, along - square) / sqrt(square);
         const double distance = sqrt(lrcsi_vec3_dot(product, product) / square);
-        capsule.radius = lrcsi_max(capsule.radius, distance + balls->radius[i]);
+        capsule.radius = lrcsi_max(capsule.radius, distance + beyond + balls->radius[i]);
         size = lrcsi_max(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
     }
-    capsule.radius = found && square > LEAST_SQUARE
-                         ? capsule.radius * LRCSI_OUTWARD_NANO + CAPSULE_ERR * size
-                         : HUGE_VAL;
+    capsule.radius = capsule.radius * LRCSI_OUTWARD_NANO + CAPSULE_ERR * size;
     return capsule;
 }
 
@@ -215,5 +222,5 @@ int lrcsi_tree_capsules_apart(const lrcsi_tree_capsule *a, const lrcsi_tree_caps
     const double apart = fabs(lrcsi_vec3_dot(product, between)) -
                          PRODUCT_ERR * lengths * sqrt(lrcsi_vec3_dot(between, between));
     const double needed = (a->radius + b->radius) * (sqrt(square) + PRODUCT_ERR * lengths);
-    return square > LEAST_SQUARE && apart > needed * LRCSI_OUTWARD_NANO;
+    return square > LEAST_CROSS && apart > needed * LRCSI_OUTWARD_NANO;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Traversals of the tree: which nodes are visited, in which order, and which are left out because a
-   label, slabs or cones allow it. */
+   label, slabs, cones or capsules allow it. */
 #include "mesh/contact/tree_walk.h"
 
 #include "mesh/contact/tree_bounds.h"

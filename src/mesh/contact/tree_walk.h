@@ -14,7 +14,7 @@ typedef struct lrcsi_tree_walk {
     int last, level;             /* the level whose boxes are sought; the current level */
     uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
     uint32_t apart;              /* number of nodes that slabs or capsules have left out */
-    lrcsi_tree_capsule capsule;  /* with which those of nodes are compared; radius 0: none is */
+    lrcsi_tree_capsule capsule;  /* compared with those of nodes; radius 0: none is */
     const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
     uint32_t apex;               /* then the leaf's label, the vertex of the cones */
     uint32_t at[LRCSI_TREE_LEVELS];
@@ -34,8 +34,9 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
    mesh/contact/tree_bounds.h); this pays for leaves whose boxes intersect many others. */
 void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
 
-/* From here on a traversal leaves out the nodes that are apart from a capsule
-   (mesh/contact/tree_capsule.h), which contains whatever the traversal seeks to meet. */
+/* From here on a traversal leaves out the nodes whose capsules are apart from this one
+   (mesh/contact/tree_capsule.h). It contains what the nodes are to meet; if they are only to be
+   near, its radius includes that distance. */
 void lrcsi_tree_narrow_by_capsule(lrcsi_tree_walk *walk, const lrcsi_tree_capsule *capsule);
 
 /* From here on the traversal of a leaf that has a vertex as label leaves out the nodes of the same

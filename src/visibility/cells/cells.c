@@ -50,7 +50,7 @@
 /* A cell without a segment is halved if its area is at most so many times negligible: near a
    contact of a facet that is almost edge-on, samples farther from the contact decide. Heuristic:
    the facets of a larger cell are processed alone. */
-#define MAX_HALVED 0x1p14
+#define MAX_HALVED 0x1p11
 /* Accepted error of an area, relative to the facet's projected area and to the square of the
    scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
@@ -58,7 +58,7 @@
 /* Heuristics: if the number of facets that remain to be processed alone, times that of all facets,
    exceeds MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are
    accepted: a facet alone is compared with every facet that might hide it. In a scene with curved
-   shapes it is CURVED_FACTOR: what is visible differs from the truth by far more there. */
+   shapes it is CURVED_FACTOR, because there most shadows differ from the true ones by far more. */
 #define MANY_LEFT     65536u
 #define SINGLE_FACTOR 4
 #define CURVED_FACTOR 16
@@ -282,7 +282,8 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     }
     const int divided =
         cut ? lrcsi_cells_divide(d, cell, &s, cut, covers && thin == 0 ? sample->at : NULL)
-            : lrcsi_clip_area(&cell->shape) <= MAX_HALVED * d->negligible &&
+            : sample->outcome == LRCSI_SAMPLE_UNSURE &&
+                  lrcsi_clip_area(&cell->shape) <= MAX_HALVED * d->negligible &&
                   lrcsi_cells_halve(d, cell, &s);
     if (!divided) {
         add_finding(b, cell, LRCSI_FINDING_UNDECIDED);

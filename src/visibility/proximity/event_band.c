@@ -93,14 +93,29 @@
    side is free and no facet of a pair adjoins it, then v = w is constant there, and the two
    integrals cancel: for a Q that is open and neither in front nor behind this is not proved, and
    faces in scenes with such a Q are not used. Along any other side they differ by at most the area
-   of either region, below twice the side's length times e_P. */
+   of either region, below twice the side's length times e_P.
+
+   7. Signs of displacements. Let Q be exact, k_Q = 0, and P have a straight wall, placed without
+   distortion. With the symbols of mesh/shape/revolution_reach.c, on a sector with h, kappa and the
+   true radius rho the map takes y = rho kappa (1, v tan h), -1 <= v <= 1, in the directions radial
+   and around, to x = rho (cos vh, sin vh), at the same height. So x is farther out than y where
+   cos vh > kappa, by at most rho (1 - kappa), and farther in elsewhere, by at most
+   rho (kappa - cos h); about equal areas of the sector are displaced in either direction. In 2 the
+   path is straight, from y to x, and it crosses the line of the edge from the inner to the outer
+   side only if the component of x - y along the outward normal m of the edge in projection is
+   positive and at least the depth of y. So y is gained only where that holds, and lost only where
+   it holds of the inward normal. With T a bound on what the other components and rounding add to
+   it, that is where (cos vh - kappa) (radial . m) > -T / rho. As y . radial = rho kappa and y .
+   around = rho kappa v tan h from a point of the axis, |v| = c in two planes through the axis. */
 #include "visibility/proximity/event_band.h"
 
 #include <math.h>
 
 #include "base/outward.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
+#include "mesh/shape/revolution.h"
 #include "visibility/index/event.h"
 
 /* The projected areas of facets with a larger cosine than this are accurate to
@@ -161,6 +176,29 @@ int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)
            !bands->view->prepared->scene->part[facet_part(bands, facet)].solid;
 }
 
+/* Heights along the axis are not displaced: the bound of that component is one on rounding. */
+static lrcsi_band_sector band_sector_make(const lrcsi_view *view, uint32_t facet,
+                                          const lrcsi_displacement *displacement)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    lrcsi_band_sector sector = {.known = 1,
+                                .half = body.half,
+                                .kappa = body.vertex_ratio * cos(body.half),
+                                .rounding = displacement->bound[1]};
+    double origin[3];
+    for (int k = 0; k < 3; k++) {
+        origin[k] = ldexp(part->origin[k], -p->exponent);
+    }
+    lrcsi_view_coordinates(view, origin, sector.origin);
+    for (int i = 0; i < 3; i++) {
+        sector.radial[i] = lrcsi_vec3_dot(view->R[i], displacement->direction[0]);
+        sector.around[i] = lrcsi_vec3_dot(view->R[i], displacement->direction[2]);
+    }
+    return sector;
+}
+
 lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t facet,
                                        const lrcsi_edge_search *where)
 {
@@ -170,6 +208,9 @@ lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t 
                            .displacement =
                                lrcsi_proximity_displacement(bands->view->prepared, facet)};
     at.lateral = lrcsi_displacement_across(&at.displacement, bands->view->unit);
+    if (at.displacement.known && lrcsi_proximity_has_rows(bands->view->prepared, facet)) {
+        at.sector = band_sector_make(bands->view, facet, &at.displacement);
+    }
     return at;
 }
 
@@ -268,6 +309,88 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
     return box;
 }
 
+/* What of a slice is gained or lost because x is displaced from y along an outward normal of the
+   edge in projection, or an inward one. */
+typedef struct signed_region {
+    double radius[2]; /* the least and the largest rho in the slice */
+    double slope;     /* the component of `radial` along that normal */
+    double other;     /* T */
+} signed_region;
+
+/* Makes it for the normal that is outward (1) or inward (-1). Given: the rectangle about the edge,
+   a slice, the side of the edge's facets. Returns 0 if no sign is known. */
+static int signed_region_make(const lrcsi_band_facet *at, const lrcsi_edge_rectangle *box,
+                              const lrcsi_slice *slice, int side, int outward,
+                              signed_region *region)
+{
+    const lrcsi_band_sector *s = &at->sector;
+    const lrcsi_displacement *d = &at->displacement;
+    const double sign = (box->reverse ? 1 : -1) * side * outward; /* `across` is to the left */
+    *region = (signed_region){.radius = {HUGE_VAL, 0}};
+    if (!s->known || !box->has_sides || !(s->kappa > 0.5)) {
+        return 0;
+    }
+    for (int i = 0; i < slice->count; i++) {
+        double from[3];
+        lrcsi_vec3_between(s->origin, slice->x[i], from);
+        lrcsi_range_extend(lrcsi_vec3_dot(from, s->radial) / s->kappa, &region->radius[0],
+                           &region->radius[1]);
+    }
+    region->radius[0] -= 2 * (s->rounding + box->err);
+    region->radius[1] += 2 * (s->rounding + box->err);
+    region->slope = sign * lrcsi_vec3_dot(d->direction[0], box->across);
+    region->other = d->bound[2] * (fabs(lrcsi_vec3_dot(d->direction[2], box->across)) + 1e-12) +
+                    2 * s->rounding + (box->rotation_err + 1e-12) * d->reach + LRCSI_PROXIMITY_ERR;
+    return region->radius[0] > 0 && fabs(region->slope) > 1e-6;
+}
+
+/* The angle whose half has this square of its sine. */
+static double displaced_angle(double square)
+{
+    return 2 * asin(sqrt(lrcsi_min(1, lrcsi_max(0, square))));
+}
+
+/* Keeps what of a slice has v <= c (side 1), or v >= -c (side -1). */
+static void slice_cut_azimuth(const lrcsi_band_sector *s, int side, double c, double err,
+                              lrcsi_slice *slice)
+{
+    double n[3];
+    for (int i = 0; i < 3; i++) {
+        n[i] = side * s->around[i] - c * tan(s->half) * s->radial[i];
+    }
+    lrcsi_slice_cut(slice, n, s->origin, err);
+}
+
+/* The fraction of a facet in a slice where x is displaced along the normal of the region, and no
+   deeper beside the edge than by that: where x is farther out than y, |v| is at most some c;
+   elsewhere it is at least c. depth_side: as for lrcsi_edge_rectangle_limit. */
+static double signed_fraction(const lrcsi_band_facet *at, const lrcsi_edge_rectangle *box,
+                              const signed_region *region, lrcsi_slice slice, int depth_side,
+                              double whole, double longest)
+{
+    const lrcsi_band_sector *s = &at->sector;
+    const double outward = 1 - s->kappa; /* at v = 0, divided by rho */
+    const double slope = fabs(region->slope);
+    const double tau = region->other / (region->radius[0] * slope) + LRCSI_REVOLUTION_SLACK;
+    const double err = 2 * (s->rounding + box->err);
+    const int is_out = region->slope > 0;
+    const double most = (is_out ? outward : s->kappa - cos(s->half)) + LRCSI_REVOLUTION_SLACK;
+    const double depth = (region->radius[1] * most * slope + region->other) * LRCSI_OUTWARD_NANO;
+    slice = lrcsi_edge_rectangle_limit(slice, box, depth_side, depth);
+    if (is_out) {
+        const double c = displaced_angle(0.5 * (outward + tau)) / s->half * LRCSI_OUTWARD_NANO;
+        slice_cut_azimuth(s, 1, c, err, &slice);
+        slice_cut_azimuth(s, -1, c, err, &slice);
+        return lrcsi_slice_fraction(&slice, whole, longest);
+    }
+    const double c = displaced_angle(0.5 * (outward - tau)) / s->half / LRCSI_OUTWARD_NANO;
+    lrcsi_slice low = slice;
+    slice_cut_azimuth(s, 1, -c, err, &low); /* v <= -c */
+    slice_cut_azimuth(s, -1, -c, err, &slice);
+    return lrcsi_min(1, lrcsi_slice_fraction(&low, whole, longest) +
+                            lrcsi_slice_fraction(&slice, whole, longest));
+}
+
 /* Finds the fractions near an event edge:
    1. none if it is an edge of the facet's own part, of which the laser sees no inside;
    2. none but what a proof leaves open if its part is behind the facet's;
@@ -277,7 +400,8 @@ static lrcsi_edge_rectangle event_rectangle(const lrcsi_event_bands *bands,
       between the outlines;
    5. all of that as gain and loss where the part lies on both sides of the edge; else what is on
       the inner side as gain, on the outer side as loss;
-   6. but no more than the areas of the region.
+   6. but no more than the areas of the region, and of exact parts
+   7. only where points of a straight wall are displaced in the direction of gain, or of loss.
    Returns 0 if there are none. */
 int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
                           int correspondence, lrcsi_event_band *f)
@@ -339,6 +463,18 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
+    if (correspondence == LRCSI_MAPPED && p->proximity.hausdorff[bands->events.part[event]] == 0) {
+        signed_region sign; /* 7 */
+        if (signed_region_make(at, &box, &inner, side, 1, &sign)) {
+            f->gain =
+                lrcsi_min(f->gain, signed_fraction(at, &box, &sign, inner, side, whole, longest));
+        }
+        if (signed_region_make(at, &box, &outer, side, -1, &sign)) {
+            f->loss =
+                lrcsi_min(f->loss, signed_fraction(at, &box, &sign, outer, -side, whole, longest));
+        }
+        f->area = lrcsi_min(f->area, f->gain + f->loss);
+    }
     if (isfinite(region.gain)) { /* 6 */
         const double gain = fraction_of(bands->view, facet, region.gain);
         const double loss = fraction_of(bands->view, facet, region.loss);

@@ -41,6 +41,15 @@ int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event);
 /* Where to look for the event edges that may be near a facet. */
 lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
 
+/* The sector of a straight wall that a facet lies on, in view coordinates: see event_band.c, 7. */
+typedef struct lrcsi_band_sector {
+    int known;                   /* 0: the facet lies on none; the other fields are not set */
+    double half, kappa;          /* h; the middle of a side is at kappa times the true radius */
+    double origin[3];            /* a point of the axis */
+    double radial[3], around[3]; /* unit vectors, of the middle of the sector */
+    double rounding;             /* a bound on what rounding adds to displacements */
+} lrcsi_band_sector;
+
 /* What the bands of a facet depend on, beside the event edges. */
 typedef struct lrcsi_band_facet {
     uint32_t facet;
@@ -48,6 +57,7 @@ typedef struct lrcsi_band_facet {
     int inside;                     /* lrcsi_band_sees_inside */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight */
+    lrcsi_band_sector sector;
 } lrcsi_band_facet;
 
 lrcsi_band_facet lrcsi_band_facet_make(const lrcsi_event_bands *bands, uint32_t facet,
