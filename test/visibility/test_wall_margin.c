@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The margins along the event edges of a ball in front of the straight wall of a cylinder, cone or
-   frustum, or of a plane face: their signed area against the circle of the true ball; and that no margin is known where
-   one of the conditions of wall_margin.c does not hold. */
+   frustum, or of a plane face: their signed area against the circle of the true ball; and that no
+   margin is known where one of the conditions of wall_margin.c does not hold. */
 #include "visibility/proximity/proximity_band.h"
 
 #include "mesh/shape/revolution.h"

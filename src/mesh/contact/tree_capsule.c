@@ -9,16 +9,16 @@
    segment is so short that products might underflow, or a point, r is infinite: the capsule bounds
    nothing.
 
-   Errors. Let S be the largest |x| + |y| + |z| of the points, v the vector along the stored segment,
-   f that from its first end to a point. The distance of the point from the line, |v x f| / |v|, has
-   an error of at most 16 u S, and the length by which it is beyond an end, from v . f, one of at
-   most 20 u S: their sum bounds the distance from the segment, and CAPSULE_ERR S both errors. If
-   |v|^2 exceeds LEAST_LENGTH, what underflows in |v x f|^2 adds less than u S.
+   Errors. Let S be the largest |x| + |y| + |z| of the points, v the vector along the stored
+   segment, f that from its first end to a point. The distance of the point from the line, |v x f| /
+   |v|, has an error of at most 16 u S, and the length by which it is beyond an end, from v . f, one
+   of at most 20 u S: their sum bounds the distance from the segment, and CAPSULE_ERR S both errors.
+   If |v|^2 exceeds LEAST_LENGTH, what underflows in |v x f|^2 adds less than u S.
 
    Two lines with directions v and w, through a and b, are |(v x w) . (b - a)| / |v x w| apart.
-   Errors: v, w and b - a have errors of 1 u in each component, so each component of v x w has one of
-   at most 4 u |v| |w|. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one of at
-   most 8 u |v| |w| + 3 u |v x w|. */
+   Errors: v, w and b - a have errors of 1 u in each component, so each component of v x w has one
+   of at most 4 u |v| |w|. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one
+   of at most 8 u |v| |w| + 3 u |v x w|. */
 #include "mesh/contact/tree_capsule.h"
 
 #include <math.h>

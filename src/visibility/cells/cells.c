@@ -390,20 +390,20 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
 
 /* Finishes the moment of a facet whose area is reported. What was added differs from the visible
    region by at most `err`, an area, and the rounding error of an area, times the distance `reach`
-   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly
-   visible, only what may be hidden, or visible, moves the moment from 0; its points are no farther
-   from the centroid than the largest difference of coordinates. */
+   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). What was not added is no
+   farther from the centroid than the largest difference of coordinates. If the facet is not partly
+   visible, only what may be hidden, or visible, moves the moment from 0. */
 static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double reach,
                           uint32_t facet, int partly, double err)
 {
+    double low[3];
+    double high[3];
+    lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
+    const double size = lrcsi_max(high[0] - low[0], high[1] - low[1]) * LRCSI_OUTWARD(4);
     if (partly) {
-        moment->error += reach * err;
+        moment->error += lrcsi_max(reach, size) * err;
     } else {
-        double low[3];
-        double high[3];
-        lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
-        *moment = (lrcsi_moment){.error = err * lrcsi_max(high[0] - low[0], high[1] - low[1]) *
-                                          LRCSI_OUTWARD(4)};
+        *moment = (lrcsi_moment){.error = err * size};
     }
 }
 

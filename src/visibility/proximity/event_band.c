@@ -98,15 +98,17 @@
    7. Signs of displacements. Let Q be exact, k_Q = 0, and P have a straight wall, placed without
    distortion. With the symbols of mesh/shape/revolution_reach.c, on a sector with h, kappa and the
    true radius rho the map takes y = rho kappa (1, v tan h), -1 <= v <= 1, in the directions radial
-   and around, to x = rho (cos vh, sin vh), at the same height. So x is farther out than y where
-   cos vh > kappa, by at most rho (1 - kappa), and farther in elsewhere, by at most
-   rho (kappa - cos h); about equal areas of the sector are displaced in either direction. In 2 the
-   path is straight, from y to x, and it crosses the line of the edge from the inner to the outer
-   side only if the component of x - y along the outward normal m of the edge in projection is
-   positive and at least the depth of y. So y is gained only where that holds, and lost only where
-   it holds of the inward normal. With T a bound on what the other components and rounding add to
-   it, that is where (cos vh - kappa) (radial . m) > -T / rho. As y . radial = rho kappa and y .
-   around = rho kappa v tan h from a point of the axis, |v| = c in two planes through the axis. */
+   and around, to x = rho (cos vh, sin vh), at the same height. So x is farther out than y where cos
+   vh > kappa, by at most rho (1 - kappa), and farther in elsewhere, by at most rho (kappa - cos h);
+   about equal areas of the sector are displaced in either direction. In 2 the path is straight,
+   from y to x, and it crosses the line of the edge from the inner to the outer side only if the
+   component of x - y along the outward normal m of the edge in projection is positive and at least
+   the depth of y. So y is gained only where that holds, and lost only where it holds of the inward
+   normal. With T a bound on what the other components and rounding add to it, that is where (cos vh
+   - kappa) (radial . m) > -T / rho. As y . radial = rho kappa and y . around = rho kappa v tan h
+   from a point of the axis, |v| = c in two planes through the axis. For each v one of the two is
+   possible: so beside each point of the edge the band contains the facet on its inner or on its
+   outer side, and a path over facets that crosses the edge meets it. */
 #include "visibility/proximity/event_band.h"
 
 #include <math.h>
@@ -176,7 +178,8 @@ int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)
            !bands->view->prepared->scene->part[facet_part(bands, facet)].solid;
 }
 
-/* Heights along the axis are not displaced: the bound of that component is one on rounding. */
+/* Heights along the axis are not displaced: the bound of that component is one on rounding. The
+   error of the origin in the view is added to it. */
 static lrcsi_band_sector band_sector_make(const lrcsi_view *view, uint32_t facet,
                                           const lrcsi_displacement *displacement)
 {
@@ -192,6 +195,7 @@ static lrcsi_band_sector band_sector_make(const lrcsi_view *view, uint32_t facet
         origin[k] = ldexp(part->origin[k], -p->exponent);
     }
     lrcsi_view_coordinates(view, origin, sector.origin);
+    sector.rounding += LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_point_err(sector.origin);
     for (int i = 0; i < 3; i++) {
         sector.radial[i] = lrcsi_vec3_dot(view->R[i], displacement->direction[0]);
         sector.around[i] = lrcsi_vec3_dot(view->R[i], displacement->direction[2]);

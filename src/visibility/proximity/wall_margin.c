@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which event edges have margins over one straight wall, or one plane face of a box or plate,
-   alone, and adds the areas of these to the facets that they meet. What that adds to sigma is decided in
-   integrate/wall/tessellation.c. Terms and conditions are those of
+/* Decides which event edges have margins over one straight wall, or one plane face of a box or
+   plate, alone, and adds the areas of these to the facets that they meet. What that adds to sigma
+   is decided in integrate/wall/tessellation.c. Terms and conditions are those of
    visibility/proximity/proximity_band.c; K, K' and k those of visibility/proximity/outline.h; w, N,
    (c) and (d) those of visibility/proximity/face_margin.c.
 
    P is a closed part with a straight wall (a cylinder, cone or frustum), or a box or plate, all of
-   whose faces count as its wall; there x is y, and delta 0. Q is another part with an outline. An event edge of Q that belongs to a contour has the ends a and b, L apart in
-   projection. The points x of the true wall and y of the facets that the map relates are in
-   projection at most delta <= k apart. The margin of the edge is known on the wall if
+   whose faces count as its wall; there x is y, and delta 0. Q is another part with an outline. An
+   event edge of Q that belongs to a contour has the ends a and b, L apart in projection. The points
+   x of the true wall and y of the facets that the map relates are in projection at most delta <= k
+   apart. The margin of the edge is known on the wall if
    (a) the facets of P that face the laser and that N meets are all on the wall, and contain N in
        projection;
    (b) a plane separates Q, in front, from P;
@@ -38,9 +39,9 @@
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
    It is tested that these are within one row and one sector of it, or on the same plane face, so
-   that F of their patches is not far from its own. On another facet the same area in projection stands for cos / cos' times as
-   much of the wall as on its own: where the margin may be on it, F sup |cos / cos' - 1| is an
-   error, twice if F differs as well. */
+   that F of their patches is not far from its own. On another facet the same area in projection
+   stands for cos / cos' times as much of the wall as on its own: where the margin may be on it, F
+   sup |cos / cos' - 1| is an error, twice if F differs as well. */
 #include "visibility/proximity/wall_margin.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Straight walls, and plane faces of boxes and plates, behind the outlines of true curved shapes and
-   of their facets: in the margins along event edges where nothing else is near, how much more of
-   each facet the true shapes leave visible than the facets do. */
+/* Straight walls, and plane faces of boxes and plates, behind the outlines of true curved shapes
+   and of their facets: in the margins along event edges where nothing else is near, how much more
+   of each facet the true shapes leave visible than the facets do. */
 #ifndef LRCSI_WALL_MARGIN_H
 #define LRCSI_WALL_MARGIN_H
 
