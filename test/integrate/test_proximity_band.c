@@ -478,6 +478,44 @@ static void a_contour_far_below_the_true_one_counts(void **state)
     }
 }
 
+/* A tilted tube above a bright plate that another plate crosses along its diagonal, where both of
+   its facets end (exact parts have no slack, and no pairs of near facets); or above its border. */
+static void margins_end_at_contacts_and_borders_of_exact_parts(void **state)
+{
+    (void)state;
+    static const double up[3] = {0, 0, 1};
+    static const double diagonal[3][3] = {{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}};
+    static const double across[3][3] = {{1, 0, 0}, {0, 0.8, -0.6}, {0, 0.6, 0.8}};
+    static const double tilted[3][3] = {
+        {0.168, -0.96, 0.224}, {0.576, 0.28, 0.768}, {-0.8, 0, 0.6}};
+    static const lrcs_brdf bright = {0, 1, 1, 0};
+    for (int border = 0; border < 2; border++) {
+        lrcs_recipe_part part[3];
+        lrcs_recipe_material material[2];
+        lrcs_recipe recipe = recipe_bright_and_black(&bright, part, material);
+        part[2] = part[1];
+        recipe.part_count = border ? 2 : 3;
+        /* its diagonal, along (0.6, 0.8) in its own frame, is then the x axis */
+        part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1.2, 1.6}};
+        memcpy(part[0].place.rotate, diagonal, sizeof diagonal);
+        part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 0.25, .length = 0.5};
+        memcpy(part[1].place.rotate, tilted, sizeof tilted);
+        part[1].place.translate[1] = border ? 0.8 : -0.2;
+        part[1].place.translate[2] = 1.5;
+        part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {4, 0.8}};
+        memcpy(part[2].place.rotate, across, sizeof across);
+        lrcs_result r[2];
+        for (int i = 0; i < 2; i++) {
+            built b;
+            build_recipe(&recipe, NULL, i == 0 ? 1e-3 : 1e-7, 1u << 15, &b);
+            r[i] = run_from(&b, up, LRCS_METHOD_EXACT);
+            built_free(&b);
+        }
+        check_abs(r[0].sigma_m2, r[1].sigma_m2, r[0].bound_m2 + r[1].bound_m2);
+        check_most(r[0].bound_m2, 1e-3 * r[0].sigma_m2);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -487,6 +525,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(back_sides_left_out_leave_tubes_unknown),
         cmocka_unit_test(what_is_not_known_of_one_part_is_known_of_no_sum),
         cmocka_unit_test(a_contour_far_below_the_true_one_counts),
+        cmocka_unit_test(margins_end_at_contacts_and_borders_of_exact_parts),
     };
     if (argc > 2) {
         shape_scene_seed = strtoull(argv[2], NULL, 10);

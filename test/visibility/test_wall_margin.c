@@ -174,6 +174,30 @@ static void margins_across_an_edge_of_a_box_have_bands(void **state)
     assert_true(sum_of_wall().facets == 0 && sum_of_wall().all_gain > 0);
 }
 
+/* (a): N across the border of a plate; (e): a box that intersects the plate below the ball, and has
+   no pair with it, because both are exact. */
+static void margins_at_a_border_or_a_contact_have_bands(void **state)
+{
+    (void)state;
+    const double d[3] = {0.02, -0.05, 1};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}};
+    const lrcs_shape wedge = {.kind = LRCS_SHAPE_BOX, .size = {0.4, 4, 0.2}};
+    lrcs_recipe_part border[2] = {part_at(plate, 0, 0, 0), ball_at(0.3, 1.5, 0, 1.5)};
+    find_margins(border, 2, 1e-3, d);
+    wall_sums sum = sum_of_wall();
+    const double gain = sum.gain + sum.loss;
+    assert_true(sum.facets > 0 && gain > 1e-3 * (sum.all_gain + sum.all_loss));
+    lrcs_recipe_part crossed[3] = {part_at(plate, 0, 0, 0), ball_at(0.3, 0.2, 0, 1.5),
+                                   part_at(wedge, 0.3, 0, -0.1)};
+    crossed[2].place.rotate[0][0] = crossed[2].place.rotate[2][2] = 0.8; /* about y */
+    crossed[2].place.rotate[0][2] = 0.6;
+    crossed[2].place.rotate[2][0] = -0.6;
+    find_margins(crossed, 3, 1e-3, d);
+    sum = sum_of_wall();
+    assert_true(sum.facets > 0);
+    check_most(0.02 * (sum.all_gain + sum.all_loss), sum.gain + sum.loss);
+}
+
 /* The back of a closed wall is never seen, also where its material is two-sided and an open part
    keeps the scene from being solid: no margin counts twice. */
 static void two_sided_walls_have_the_same_margins(void **state)
@@ -391,6 +415,7 @@ int main(void)
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
         cmocka_unit_test(margins_on_plane_faces_have_their_sign),
         cmocka_unit_test(margins_across_an_edge_of_a_box_have_bands),
+        cmocka_unit_test(margins_at_a_border_or_a_contact_have_bands),
         cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
         cmocka_unit_test(no_margin_is_known_without_the_conditions),

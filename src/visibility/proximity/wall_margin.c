@@ -16,7 +16,8 @@
    (c) no event edge of a part other than Q comes within its slack of N in projection, unless its
        part is behind P; for P itself the slack is two reaches;
    (d) of Q, only two other event edges meet N, as in face_margin.c;
-   (e) at these facets, (1) holds for no part that is neither in front of P nor behind it;
+   (e) at these facets, (1) holds for no part that is neither in front of P nor behind it, and no
+       part meets their interior in N;
    (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet
        of the wall there is visible.
    (a) holds if N meets no other facet across the sides of those facets: N is convex, and a straight
@@ -118,6 +119,40 @@ static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
     return 1;
 }
 
+/* Is a facet of another part, which meets the given one or is met by it, in N? */
+static int contact_is_near(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                           uint32_t facet, uint32_t other)
+{
+    lrcsi_event_bands *bands = job->bands;
+    const uint32_t *part = bands->view->prepared->scene->facet_part;
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(bands->view, other, m->edge, m->width + m->err);
+    return part[other] != part[facet] &&
+           (!lrcsi_meter_take(bands->meter, 1) ||
+            lrcsi_edge_rectangle_slice(bands->view, other, &box).count > 0);
+}
+
+/* May another part meet an exact facet in N? If both are exact, their slack is 0, and they have no
+   pairs; but where they intersect, one begins to hide the other without an event edge. Contacts of
+   the facet's interior are its own; those along its sides belong to the other facet. */
+static int facet_has_contact(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                             uint32_t facet)
+{
+    const lrcs_prepared *p = job->bands->view->prepared;
+    const lrcsi_intersections *contacts = &p->intersections;
+    int met = 0;
+    if (p->proximity.reach[p->scene->facet_part[facet]] > 0 || contacts->met[facet] == 0) {
+        return 0;
+    }
+    for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1] && !met; i++) {
+        met = contact_is_near(job, m, facet, contacts->entry[i].other);
+    }
+    for (uint32_t i = job->first_contact[facet]; i != LRCS_NONE && !met; i = job->next_contact[i]) {
+        met = contact_is_near(job, m, facet, job->contact[i]);
+    }
+    return met;
+}
+
 /* Is (1) excluded for the points of a facet that are in N? A facet of another part within the slack
    of such a point is, in projection, within the slack of N. */
 static int facet_is_apart(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
@@ -136,7 +171,7 @@ static int facet_is_apart(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, u
         apart = lrcsi_meter_take(bands->meter, 1) &&
                 lrcsi_edge_rectangle_slice(bands->view, other, &box).count == 0;
     }
-    return apart;
+    return apart && !facet_has_contact(job, m, facet);
 }
 
 /* The position of a facet on a straight wall, or on a box or plate, of which each plane face has
@@ -277,9 +312,9 @@ static int margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *
                     &box, view->point[corner[k]].x, view->point[corner[(k + 1) % 3]].x))) {
                 continue;
             }
-            if (other >= p->scene->facet_count ||
+            if (other >= p->scene->facet_count || other == f ||
                 p->scene->facet_part[other] != p->scene->facet_part[f]) {
-                return 0;
+                return 0; /* a border */
             }
             if (lrcsi_marked(&job->reached, other)) {
                 continue;
@@ -486,8 +521,9 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_margin_facet)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(3, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->intersections.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
@@ -497,6 +533,7 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
 {
     const uint32_t facets = bands->view->prepared->scene->facet_count;
     const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
+    const lrcsi_intersections *contacts = &bands->view->prepared->intersections;
     *job = (lrcsi_wall_margins){
         .bands = bands, .classification = classification, .work = work, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
@@ -507,8 +544,12 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
+    job->first_contact = lrcsi_work_take(work, facets, sizeof *job->first_contact);
+    job->next_contact = lrcsi_work_take(work, contacts->count, sizeof *job->next_contact);
+    job->contact = lrcsi_work_take(work, contacts->count, sizeof *job->contact);
     if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
-        !job->first_pair || !job->next_pair) {
+        !job->first_pair || !job->next_pair || !job->first_contact || !job->next_contact ||
+        !job->contact) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {
@@ -516,7 +557,15 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     }
     for (uint32_t f = 0; f < facets; f++) {
         margin[f] = (lrcsi_wall_margin){.area = 0};
-        job->first_pair[f] = LRCS_NONE;
+        job->first_pair[f] = job->first_contact[f] = LRCS_NONE;
+    }
+    for (uint32_t f = 0; f < facets; f++) {
+        for (uint32_t i = contacts->first[f]; i < contacts->first[f + 1]; i++) {
+            uint32_t *first = &job->first_contact[contacts->entry[i].other];
+            job->contact[i] = f;
+            job->next_contact[i] = *first;
+            *first = i;
+        }
     }
     for (uint32_t i = 0; i < proximity->count; i++) {
         uint32_t *first = &job->first_pair[proximity->pair[i].facet];

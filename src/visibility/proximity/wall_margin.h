@@ -37,9 +37,12 @@ typedef struct lrcsi_wall_margins {
     uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
                                          next one of the same facet; LRCS_NONE: no further one */
     unsigned char *pairs;             /* facet: what is left of them */
-    lrcsi_wall_margin *margin;        /* facet: to be filled */
-    lrcsi_wall_event *event;          /* event */
-    lrcsi_margin_facet *facet;        /* those of the edge under examination */
+    uint32_t *first_contact, *next_contact; /* facet: the first of the contacts in which it is the
+                                               other one; contact: the next one, likewise */
+    uint32_t *contact;                      /* contact: the facet that it belongs to */
+    lrcsi_wall_margin *margin;              /* facet: to be filled */
+    lrcsi_wall_event *event;                /* event */
+    lrcsi_margin_facet *facet;              /* those of the edge under examination */
     uint32_t facet_count;
     lrcsi_marks reached;   /* facets: those of the edge under examination */
     unsigned char *reader; /* facet: whether queries may be made at it */
