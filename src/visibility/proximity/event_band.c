@@ -113,6 +113,7 @@
 
 #include <math.h>
 
+#include "base/degrees.h"
 #include "base/outward.h"
 #include "base/range.h"
 #include "base/vec3.h"
@@ -186,11 +187,12 @@ static lrcsi_band_sector band_sector_make(const lrcsi_view *view, uint32_t facet
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
-    lrcsi_band_sector sector = {.known = 1,
-                                .half = body.half,
-                                .kappa = body.vertex_ratio * cos(body.half),
-                                .rounding = displacement->bound[1]};
+    lrcsi_band_sector sector = {.known = 1, .half = body.half, .rounding = displacement->bound[1]};
+    double sine;
     double origin[3];
+    lrcsi_degrees_sincos_plain(180.0 / body.around, &sine, &sector.cosine);
+    sector.tangent = sine / sector.cosine;
+    sector.kappa = body.vertex_ratio * sector.cosine;
     for (int k = 0; k < 3; k++) {
         origin[k] = ldexp(part->origin[k], -p->exponent);
     }
@@ -348,26 +350,21 @@ static int signed_region_make(const lrcsi_band_facet *at, const lrcsi_edge_recta
     return region->radius[0] > 0 && fabs(region->slope) > 1e-6;
 }
 
-/* The angle whose half has this square of its sine. */
-static double displaced_angle(double square)
-{
-    return 2 * asin(sqrt(lrcsi_min(1, lrcsi_max(0, square))));
-}
-
 /* Keeps what of a slice has v <= c (side 1), or v >= -c (side -1). */
 static void slice_cut_azimuth(const lrcsi_band_sector *s, int side, double c, double err,
                               lrcsi_slice *slice)
 {
     double n[3];
     for (int i = 0; i < 3; i++) {
-        n[i] = side * s->around[i] - c * tan(s->half) * s->radial[i];
+        n[i] = side * s->around[i] - c * s->tangent * s->radial[i];
     }
     lrcsi_slice_cut(slice, n, s->origin, err);
 }
 
 /* The fraction of a facet in a slice where x is displaced along the normal of the region, and no
    deeper beside the edge than by that: where x is farther out than y, |v| is at most some c;
-   elsewhere it is at least c. depth_side: as for lrcsi_edge_rectangle_limit. */
+   elsewhere it is at least c. These follow from q = 1 - cos vh, for which with |v| <= 1
+   (vh)^2 / 2 (1 - h^2 / 12) <= q <= (vh)^2 / 2. depth_side: as for lrcsi_edge_rectangle_limit. */
 static double signed_fraction(const lrcsi_band_facet *at, const lrcsi_edge_rectangle *box,
                               const signed_region *region, lrcsi_slice slice, int depth_side,
                               double whole, double longest)
@@ -378,16 +375,17 @@ static double signed_fraction(const lrcsi_band_facet *at, const lrcsi_edge_recta
     const double tau = region->other / (region->radius[0] * slope) + LRCSI_REVOLUTION_SLACK;
     const double err = 2 * (s->rounding + box->err);
     const int is_out = region->slope > 0;
-    const double most = (is_out ? outward : s->kappa - cos(s->half)) + LRCSI_REVOLUTION_SLACK;
+    const double most = (is_out ? outward : s->kappa - s->cosine) + LRCSI_REVOLUTION_SLACK;
     const double depth = (region->radius[1] * most * slope + region->other) * LRCSI_OUTWARD_NANO;
     slice = lrcsi_edge_rectangle_limit(slice, box, depth_side, depth);
     if (is_out) {
-        const double c = displaced_angle(0.5 * (outward + tau)) / s->half * LRCSI_OUTWARD_NANO;
+        const double square = 2 * lrcsi_max(0, outward + tau) / (1 - s->half * s->half / 12);
+        const double c = lrcsi_min(1, sqrt(square) / s->half * LRCSI_OUTWARD_NANO);
         slice_cut_azimuth(s, 1, c, err, &slice);
         slice_cut_azimuth(s, -1, c, err, &slice);
         return lrcsi_slice_fraction(&slice, whole, longest);
     }
-    const double c = displaced_angle(0.5 * (outward - tau)) / s->half / LRCSI_OUTWARD_NANO;
+    const double c = sqrt(2 * lrcsi_max(0, outward - tau)) / s->half / LRCSI_OUTWARD_NANO;
     lrcsi_slice low = slice;
     slice_cut_azimuth(s, 1, -c, err, &low); /* v <= -c */
     slice_cut_azimuth(s, -1, -c, err, &slice);

@@ -43,11 +43,12 @@ lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t fac
 
 /* The sector of a straight wall that a facet lies on, in view coordinates: see event_band.c, 7. */
 typedef struct lrcsi_band_sector {
-    int known;                   /* 0: the facet lies on none; the other fields are not set */
-    double half, kappa;          /* h; the middle of a side is at kappa times the true radius */
-    double origin[3];            /* a point of the axis */
-    double radial[3], around[3]; /* unit vectors, of the middle of the sector */
-    double rounding;             /* a bound on what rounding adds to displacements */
+    int known;                    /* 0: the facet lies on none; the other fields are not set */
+    double half, cosine, tangent; /* h, cos h, tan h */
+    double kappa;                 /* the middle of a side is at kappa times the true radius */
+    double origin[3];             /* a point of the axis */
+    double radial[3], around[3];  /* unit vectors, of the middle of the sector */
+    double rounding;              /* a bound on what rounding adds to displacements */
 } lrcsi_band_sector;
 
 /* What the bands of a facet depend on, beside the event edges. */
