@@ -198,6 +198,31 @@ static void margins_at_a_border_or_a_contact_have_bands(void **state)
     check_most(0.02 * (sum.all_gain + sum.all_loss), sum.gain + sum.loss);
 }
 
+/* Far from the origin, rounding of its corners turns the facets of a plate against each other: below
+   the diagonal margins have bands. */
+static void margins_across_facets_that_rounding_turns_have_bands(void **state)
+{
+    (void)state;
+    const double far = 1048576.3;
+    const double turn[3][3] = {{0.6, -0.64, 0.48}, {0.8, 0.48, -0.36}, {0, 0.6, 0.8}};
+    const double d[3] = {0.48, -0.36, 0.8};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {2, 2, 0}};
+    lrcs_recipe_part part[2] = {
+        part_at(plate, far, 2 * far, 3 * far),
+        ball_at(0.3, far + 1.5 * d[0], 2 * far + 1.5 * d[1], 3 * far + 1.5 * d[2])};
+    memcpy(part[WALL].place.rotate, turn, sizeof turn);
+    find_margins(part, 2, 1e-3, d);
+    const lrcsi_normal *n = view.prepared->normal;
+    double turned = 0;
+    for (int k = 0; k < 3; k++) {
+        turned = fmax(turned, fabs(n[0].high[k] / n[0].length - n[1].high[k] / n[1].length));
+    }
+    assert_true(turned > 1e-11); /* this is such a plate */
+    const wall_sums sum = sum_of_wall();
+    assert_true(sum.facets == 2);
+    check_most(0.01 * (sum.all_gain + sum.all_loss), sum.gain + sum.loss);
+}
+
 /* The back of a closed wall is never seen, also where its material is two-sided and an open part
    keeps the scene from being solid: no margin counts twice. */
 static void two_sided_walls_have_the_same_margins(void **state)
@@ -416,6 +441,7 @@ int main(void)
         cmocka_unit_test(margins_on_plane_faces_have_their_sign),
         cmocka_unit_test(margins_across_an_edge_of_a_box_have_bands),
         cmocka_unit_test(margins_at_a_border_or_a_contact_have_bands),
+        cmocka_unit_test(margins_across_facets_that_rounding_turns_have_bands),
         cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
         cmocka_unit_test(no_margin_is_known_without_the_conditions),

@@ -168,10 +168,10 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
                                 either + value * band->loss_aligned[facet], 0, 0, 0};
 }
 
-/* The error of the margins on a facet of a straight wall, per unit of its area. F in them is that
-   of a patch next to the facet's (visibility/proximity/wall_margin.c): its normals turn from the
-   facet's by at most 3 `turn`. Where the sum does not include them, all that they add is an error.
- */
+/* The error of the margins on a facet, per unit of its area. F in them may be that of a patch next
+   to the facet's, or of the other facet of a plane face (visibility/proximity/wall_margin.c): its
+   normals turn from the facet's by at most 3 `turn`. Where the sum does not include them, all that
+   they add is an error. */
 static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
                            const lrcsi_incidence *incidence, const lrcs_brdf *brdf,
                            const lrcsi_wall_margin *margin)

@@ -29,7 +29,7 @@ typedef struct lrcsi_proximity_band {
     lrcsi_face_margin *face; /* part: of the flat face that the laser sees of it. The facets of a
                                   known face have a gain and a loss of aligned points, which do not
                                   contain its margins (event_band.c, 6) */
-    lrcsi_wall_margin *margin; /* facet: the margins of other parts' event edges on its wall */
+    lrcsi_wall_margin *margin; /* facet: the margins of other parts' event edges on it */
     lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
     uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
 } lrcsi_proximity_band;

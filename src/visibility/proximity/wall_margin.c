@@ -39,10 +39,10 @@
    near. Beyond the ends of the edge, points are attributed as in face_margin.c.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
-   It is tested that these are within one row and one sector of it, or on the same plane face, so
-   that F of their patches is not far from its own. On another facet the same area in projection
-   stands for cos / cos' times as much of the wall as on its own: where the margin may be on it, F
-   sup |cos / cos' - 1| is an error, twice if F differs as well. */
+   It is tested that these are within one row and one sector of it, or on the same plane face, their
+   normals equal but for rounding, so that F of their patches is not far from its own. On another
+   facet the same area in projection stands for cos / cos' times as much of the wall as on its own:
+   where the margin may be on it, F sup |cos / cos' - 1| is an error, twice if F differs as well. */
 #include "visibility/proximity/wall_margin.h"
 
 #include <math.h>
@@ -62,6 +62,10 @@
 /* Nor one whose margin may be on facets that are so much more oblique than those to which it is
    attributed. */
 #define COS_RATIO_ERR_MAX 1.0
+
+/* Nor one on both facets of a plane face if rounding of their corners has turned their normals,
+   rad, by more than this: F counts as the same on both (integrate/wall/tessellation.c). */
+#define PLANE_TURN_MAX 1e-12
 
 /* What is left of the list of a facet's pairs: all; those that matter; those, but too many. */
 enum { PAIRS_ALL, PAIRS_REDUCED, PAIRS_MANY };
@@ -329,6 +333,20 @@ static int margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *
     return 1;
 }
 
+/* May two facets be on one plane face, and turned against each other? Their turn is at most the sum
+   of the differences between the components of their unit normals. */
+static int is_turned(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+{
+    const lrcsi_normal *a = &p->normal[facet];
+    const lrcsi_normal *b = &p->normal[other];
+    double turn = 0;
+    for (int k = 0; k < 3; k++) {
+        turn += fabs(a->high[k] / a->length - b->high[k] / b->length);
+    }
+    return lrcsi_shape_is_plane_faced(p->scene->part[p->scene->facet_part[facet]].kind) &&
+           !(turn <= PLANE_TURN_MAX);
+}
+
 /* Are the patches above each part of the margin next to the facet to which it is attributed? Also
    finds how much more of their area a part of the view plane stands for. */
 static int margin_facets_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
@@ -356,8 +374,9 @@ static int margin_facets_are_local(const lrcsi_wall_margins *job, const lrcsi_ed
                 fabs(own / cosine - 1) + 4 * LRCSI_VIEW_COS_ERR / lrcsi_min(own, cosine);
             one->cos_ratio_err = lrcsi_max(one->cos_ratio_err, cos_ratio_err);
             one->neighbour_err += cos_ratio_err * length;
-            local =
-                is_next_to(&one->patch, &other->patch, around) && cos_ratio_err < COS_RATIO_ERR_MAX;
+            local = is_next_to(&one->patch, &other->patch, around) &&
+                    cos_ratio_err < COS_RATIO_ERR_MAX &&
+                    !is_turned(view->prepared, one->facet, other->facet);
         }
     }
     return local;
