@@ -273,23 +273,11 @@ int lrcsi_proximity_on_round_wall(const lrcs_prepared *p, uint32_t facet)
            lrcsi_shape_is_round(p->scene->part[part].kind);
 }
 
-/* Notes that a facet is near the part of another one, if part of it is. */
-static void near_add(lrcs_prepared *p, uint32_t facet, uint32_t other)
-{
-    const uint32_t *part = p->scene->facet_part;
-    double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
-    lrcsi_part_set set = lrcsi_part_set_of(part[other]);
-    if ((p->proximity.near[facet] & set) == 0 && pair_slice(p, facet, other, near).count > 0) {
-        p->proximity.near[facet] |= set;
-    }
-}
-
 /* Adds a pair if part of the facet is within the slack of the other. */
-static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
+static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, double slack,
+                         lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
-    const uint32_t *part = p->scene->facet_part;
-    double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
     lrcsi_slice slice = pair_slice(p, facet, other, slack);
     if (slice.count == 0) {
         return LRCS_OK;
@@ -336,24 +324,84 @@ static void narrow_search(const lrcs_prepared *p, uint32_t facet, double within,
     lrcsi_tree_narrow_by_capsule(walk, &capsule);
 }
 
-/* Adds the pairs of a facet of a curved part and the facets of other parts, in both orders. If both
-   parts are curved, only the order in which this facet comes first is added here: the other order
-   is added for the other facet. */
+/* A box that contains what is within a distance of another. */
+static lrcsi_box box_within(const lrcsi_box *box, double distance)
+{
+    lrcsi_box wide = *box;
+    for (int k = 0; k < 3; k++) {
+        wide.low[k] -= distance;
+        wide.high[k] += distance;
+    }
+    return wide;
+}
+
+/* The distance between two boxes along the axis where it is largest; negative if they overlap. */
+static double boxes_gap(const lrcsi_box *a, const lrcsi_box *b)
+{
+    double gap = -HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        gap = lrcsi_max3(gap, a->low[k] - b->high[k], b->low[k] - a->high[k]);
+    }
+    return gap;
+}
+
+/* Adds the pairs of a facet of a curved part, with the given box, and another one of another part,
+   in both orders. If both parts are curved, only the order in which this facet comes first is added
+   here: the other order is added for the other facet. */
+static int pairs_of_two(lrcs_prepared *p, uint32_t facet, uint32_t other, const lrcsi_box *box,
+                        lrcs_work *work)
+{
+    const uint32_t *part = p->scene->facet_part;
+    const double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
+    const lrcsi_box other_box = lrcsi_box_of(p->vertex, &p->scene->facet[other]);
+    const double gap = boxes_gap(box, &other_box);
+    int status = gap <= slack ? proximity_add(p, facet, other, slack, work) : LRCS_OK;
+    if (status == LRCS_OK && p->proximity.reach[part[other]] == 0) {
+        const double back = lrcsi_proximity_slack(p, part[other], part[facet]);
+        status = gap <= back ? proximity_add(p, other, facet, back, work) : LRCS_OK;
+    }
+    return status;
+}
+
+/* Notes which other parts a facet with the given box is near. Of each part that it is near, only
+   facets in nodes together with those of other parts are met after the first one. */
+static void near_find(lrcs_prepared *p, uint32_t facet, const lrcsi_box *box,
+                      const lrcsi_tree *tree)
+{
+    const uint32_t *part = p->scene->facet_part;
+    const double own = p->proximity.reach[part[facet]];
+    const double most = lrcsi_max(own, p->proximity.max_hausdorff);
+    const lrcsi_box wide = box_within(
+        box, LRCSI_PROXIMITY_NEAR * (p->proximity.max_hausdorff + most + 2 * LRCSI_PROXIMITY_ERR));
+    lrcsi_tree_walk walk = lrcsi_tree_within(tree, &wide, part[facet]);
+    lrcsi_part_set *near = &p->proximity.near[facet];
+    for (uint32_t at; (at = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
+        const uint32_t other = tree->order[at];
+        const lrcsi_part_set set = lrcsi_part_set_of(part[other]);
+        const double distance =
+            LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
+        const lrcsi_box other_box = lrcsi_box_of(p->vertex, &p->scene->facet[other]);
+        if (part[other] != part[facet] && (*near & set) == 0 &&
+            boxes_gap(box, &other_box) <= distance &&
+            pair_slice(p, facet, other, distance).count > 0) {
+            *near |= set;
+            walk.also_without |= part[other] < LRCSI_PART_SET_SINGLE ? set : 0;
+        }
+    }
+}
+
+/* Adds the pairs of a facet of a curved part and the facets of other parts, and finds what is near.
+ */
 static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search, lrcs_work *work)
 {
     lrcsi_tree *tree = &search->tree;
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    const int near = lrcsi_proximity_on_round_wall(p, facet);
-    double within =
-        (near ? LRCSI_PROXIMITY_NEAR : 1) *
-        (2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR);
-    lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
-    for (int k = 0; k < 3; k++) {
-        box.low[k] -= within;
-        box.high[k] += within;
-    }
-    lrcsi_tree_walk walk = lrcsi_tree_within(tree, &box, part);
+    const double within =
+        2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
+    const lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
+    const lrcsi_box wide = box_within(&box, within);
+    lrcsi_tree_walk walk = lrcsi_tree_within(tree, &wide, part);
     int status = LRCS_OK;
     uint32_t at;
     if (search->capsules_pay) {
@@ -368,16 +416,12 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search,
         if (tree->has_capsules && met == MANY_NEAR && !search->capsules_pay) {
             narrow_search(p, facet, within, &walk);
         }
-        if (scene->facet_part[other] == part) {
-            continue;
+        if (scene->facet_part[other] != part) {
+            status = pairs_of_two(p, facet, other, &box, work);
         }
-        if (near) {
-            near_add(p, facet, other);
-        }
-        status = proximity_add(p, facet, other, work);
-        if (status == LRCS_OK && p->proximity.reach[scene->facet_part[other]] == 0) {
-            status = proximity_add(p, other, facet, work);
-        }
+    }
+    if (lrcsi_proximity_on_round_wall(p, facet)) {
+        near_find(p, facet, &box, tree);
     }
     search->capsules_pay = walk.apart >= NEAR_NODES_APART;
     return status;

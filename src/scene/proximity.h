@@ -13,7 +13,7 @@
 #define LRCSI_PROXIMITY_ERR 0x1p-44
 
 /* Facets of other parts that are farther away than this times the slack are not near. */
-#define LRCSI_PROXIMITY_NEAR 64.0
+#define LRCSI_PROXIMITY_NEAR 192.0
 
 /* The slack of two parts: the visibility of the true shapes may differ from that of the facets only
    where a point of a facet of `part` is within this distance of a facet of `other` or, in

@@ -422,6 +422,7 @@ static void scenes_of_flat_parts_have_no_tessellation_error(void **state)
     check_same(shadow_run(&s, 64, d, LRCS_METHOD_EXACT).budget.tessellation_m2, 0);
 }
 
+/* But for remainders of means near the outline: what is negligible depends on sigma. */
 static void parts_far_apart_cost_no_more_than_alone(void **state)
 {
     (void)state;
@@ -430,7 +431,7 @@ static void parts_far_apart_cost_no_more_than_alone(void **state)
     add(&s, (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5}, 0, 0, 0);
     double alone = shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2;
     add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {3, 3}}, 5, 0, 0);
-    check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-9);
+    check_rel(shadow_run(&s, 1000, d, LRCS_METHOD_EXACT).budget.tessellation_m2, alone, 1e-3);
 }
 
 /* There doubles are some 1e-10 of a part apart, which tilts and resizes its facets. */

@@ -229,6 +229,41 @@ static void all_facets_within_the_slack_are_pairs(void **state)
     assert_true(ends > 50);
 }
 
+/* A ball above a plate, and another plate below that. A facet of the ball is near a plate if its
+   lowest corner is within LRCSI_PROXIMITY_NEAR slacks of it. */
+static void round_facets_know_which_parts_are_near(void **state)
+{
+    (void)state;
+    enum { BALL, HIGH, LOW, PARTS };
+    lrcs_recipe_part part[PARTS];
+    for (int i = 0; i < PARTS; i++) {
+        part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+        part[i].material_index = -1;
+        part[i].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {4, 4}};
+    }
+    part[BALL].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    part[BALL].place.translate[2] = 0.625;
+    part[LOW].place.translate[2] = -0.25;
+    const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
+    const lrcs_prepared *p = prepare_recipe(&recipe, 1e-3, 2000);
+    int count[PARTS][2] = {{0}};
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (uint32_t k = HIGH; k <= LOW && p->scene->facet_part[f] == BALL; k++) {
+            const double plate = lrcsi_prepared_corner(p, p->scene->part[k].first_facet, 0)[2];
+            const double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, BALL, k);
+            double lowest = HUGE_VAL;
+            for (int i = 0; i < 3; i++) {
+                lowest = fmin(lowest, lrcsi_prepared_corner(p, f, i)[2] - plate);
+            }
+            const int is_near = (p->proximity.near[f] & lrcsi_part_set_of(k)) != 0;
+            assert_true(is_near ? lowest < near * (1 + 1e-6) : lowest > near * (1 - 1e-6));
+            count[k][is_near]++;
+        }
+    }
+    assert_true(count[HIGH][0] > 100 && count[HIGH][1] > 100);
+    assert_true(count[LOW][0] > count[HIGH][0] && count[LOW][1] > 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +271,7 @@ int main(void)
         cmocka_unit_test(rows_of_straight_walls_lie_across_the_axis),
         cmocka_unit_test(facets_of_round_shapes_have_no_rows),
         cmocka_unit_test(all_facets_within_the_slack_are_pairs),
+        cmocka_unit_test(round_facets_know_which_parts_are_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

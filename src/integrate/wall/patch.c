@@ -79,7 +79,8 @@
      negligible (lrcsi_patches); the remainder, relative to the mean, above which the mean is not
      used, unless it is negligible; how often a patch is halved in each variable;
    - of pieces that are nearly edge-on, where normals move by more than a fraction of the cosine:
-     how often they are halved;
+     how often they are halved, and how often at most while F of what is left is not negligible.
+     The area of these is so small that far more is negligible there than elsewhere;
    - of patches that may be edge-on in part: the remainder that is enough, relative to the largest
      F; that above which the mean is not used, relative to the mean: without it, about all of F
      would be an error. */
@@ -87,7 +88,9 @@
 #define REMAINDER_MAX      0x1p-10
 #define LEVELS_MAX         2
 #define NEARLY_EDGE_ON     0.1
-#define EDGE_ON_LEVELS_MAX 3
+#define EDGE_ON_LEVELS     3
+#define EDGE_ON_NEGLIGIBLE 0x1p16
+#define EDGE_ON_LEVELS_MAX 7
 #define EDGE_ON_TARGET     0x1p-14
 #define EDGE_ON_MAX        0x1p-3
 
@@ -483,7 +486,9 @@ static int patch_piece_add(const patch_frame *f, const lrcs_brdf *brdf, double s
         patch->remainder += fraction * bound;
         return 1;
     }
-    const int is_smallest = level >= (is_nearly_edge_on ? EDGE_ON_LEVELS_MAX : LEVELS_MAX);
+    const int is_smallest = level >= (is_nearly_edge_on ? EDGE_ON_LEVELS_MAX : LEVELS_MAX) ||
+                            (level >= EDGE_ON_LEVELS &&
+                             (f->negligible == 0 || bound <= EDGE_ON_NEGLIGIBLE * f->negligible));
     if (piece_is_slanting(f, shift)) { /* 3 */
         const lrcsi_mean_rule *rule[2];
         const lrcsi_patch before = *patch;

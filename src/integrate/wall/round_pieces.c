@@ -7,6 +7,7 @@
 #include "integrate/wall/round_pieces.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/length.h"
 #include "base/outward.h"
@@ -21,22 +22,25 @@
 #include "optics/reflect.h"
 
 /* The remainder that a rule should have, relative to G: this times the tolerance, but within these
-   limits. */
+   limits; or a fraction of what is uncertain because of other parts. */
 #define RULE_FRACTION  0x1p-7
+#define BAND_FRACTION  0x1p-7
 #define REMAINDER_LOW  0x1p-40
 #define REMAINDER_HIGH 0x1p-12
 /* A sector is not used if the remainder is larger than this, relative to G. */
 #define REMAINDER_MAX 0x1p-10
-/* A triangle is divided if its remainder is larger than this times the one that it should have:
+/* A triangle is halved if its remainder is larger than this times the one that it should have:
    heuristic. */
 #define TARGET_MISSED 4
-/* A triangle is divided into at most the square of this number. */
-#define DIVISIONS_MAX 8
+/* A triangle is halved at most so often. With every halving the remainder that it should have grows
+   by so many bits: only steep ones, of which the projection is small, are halved often. */
+#define TRIANGLE_HALVINGS_MAX 11
+#define TARGET_BITS           2
 /* The largest distance of a facet from the true surface along d, as a multiple of its part's reach.
    Above a margin, which is at most 2 reaches wide, and where the tangent of the surface's
-   inclination is at most 17.5 (integrate/wall/round_sector.h), the surface is then within
-   22 + 2 (1 + 17.5) < 60 reaches of the facet (visibility/proximity/event_band.c, 5). */
-#define MAX_REACHES 22.0
+   inclination is at most 58.1 (integrate/wall/round_sector.h), the surface is then within
+   60 + 2 (1 + 58.1) < 180 reaches of the facet (visibility/proximity/event_band.c, 5). */
+#define MAX_REACHES 60.0
 /* How often sectors beside a border where it is not known what is visible join the set: heuristic.
    Such a border is as wide as an event edge's band, mostly less than a facet. */
 #define JOIN_ROUNDS 4
@@ -133,63 +137,80 @@ static int triangle_centre(const pieces_job *job, const double corner[3][2],
     return lrcsi_round_point_make(&job->wall.surface, at, centre);
 }
 
-/* The corners of triangle number i of the n x n into which one is divided evenly. */
-static void triangle_divide(const double corner[3][2], int n, int i, double small[3][2])
+/* One half of a triangle, across its longest side. */
+static void triangle_half(const double corner[3][2], int which, double half[3][2])
 {
-    int row = 0;
-    while ((row + 1) * (row + 1) <= i) {
-        row++;
+    int from = 0; /* the corner where the longest side begins */
+    double longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = corner[i];
+        const double *b = corner[(i + 1) % 3];
+        const double length = lrcsi_length_flat(b[0] - a[0], b[1] - a[1]);
+        from = length > longest ? i : from;
+        longest = lrcsi_max(longest, length);
     }
-    int at = i - row * row; /* 0 .. 2 row: even ones have the same orientation */
-    int a = at / 2;
-    int odd = at % 2;
-    const int node[2][3][2] = {{{row, a}, {row + 1, a}, {row + 1, a + 1}},
-                               {{row, a}, {row + 1, a + 1}, {row, a + 1}}};
-    for (int k = 0; k < 3; k++) {
-        double r = (double)node[odd][k][0] / n;
-        double s = (double)node[odd][k][1] / n;
-        for (int j = 0; j < 2; j++) {
-            small[k][j] = corner[0][j] + r * (corner[1][j] - corner[0][j]) +
-                          s * (corner[2][j] - corner[1][j]);
-        }
+    const double *a = corner[from];
+    const double *b = corner[(from + 1) % 3];
+    for (int k = 0; k < 2; k++) {
+        const double middle = 0.5 * (a[k] + b[k]);
+        half[0][k] = which == 0 ? a[k] : middle;
+        half[1][k] = which == 0 ? middle : b[k];
+        half[2][k] = corner[(from + 2) % 3][k];
     }
 }
 
-/* Adds the integral over a counter-clockwise triangle, divided where its remainder would be too
-   large. Returns 0 if the remainder is too large, or the surface not known. */
-static int triangle_integrate(const pieces_job *job, const double corner[3][2], double area,
-                              lrcsi_round_sum *sum)
+/* Adds the integral over a counter-clockwise triangle, one that has been halved `halved` times, if
+   the remainder of a rule is small enough. wanted: the remainder, relative to G, that it should
+   have if it is not halved. Returns 1 if it was added; 0 if the triangle is to be halved; -1 if the
+   surface is not known, or rounding too large. */
+static int triangle_try(const pieces_job *job, const double corner[3][2], double area,
+                        double wanted, int halved, lrcsi_round_sum *sum)
 {
-    for (int n = 1; n <= DIVISIONS_MAX; n *= 2) {
-        lrcsi_round_sum all = {.glint = 0};
-        int fine = 1;
-        for (int i = 0; i < n * n && fine; i++) {
-            double small[3][2];
-            lrcsi_round_point point;
-            double radius;
-            triangle_divide(corner, n, i, small);
-            if (!triangle_centre(job, (const double(*)[2])small, &point, &radius)) {
-                return 0;
-            }
-            const double here[2] = {0, 0};
-            lrcsi_round_value at =
-                lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, &point, here);
-            double scale = at.glint + at.diffuse;
-            triangle_rule rule = triangle_rule_choose(job, &point, radius, job->target * scale);
-            fine = rule.remainder <=
-                   (n < DIVISIONS_MAX ? TARGET_MISSED * job->target : REMAINDER_MAX) * scale;
-            if (fine) {
-                triangle_add(job, &point, (const double(*)[2])small, area / (n * n), rule.rule,
-                             &all);
-                all.remainder += area / (n * n) * rule.remainder;
-            }
-        }
-        if (fine && isfinite(all.glint + all.diffuse + all.rounding + all.remainder)) {
-            lrcsi_round_sum_append(&all, 1, sum);
-            return 1;
+    const double here[2] = {0, 0};
+    lrcsi_round_point point;
+    double radius;
+    if (!triangle_centre(job, corner, &point, &radius)) {
+        return -1;
+    }
+    const lrcsi_round_value at =
+        lrcsi_round_value_make(&job->wall.surface, &job->wall.brdf, &point, here);
+    const double scale = at.glint + at.diffuse;
+    const double target = lrcsi_min(REMAINDER_MAX, ldexp(wanted, TARGET_BITS * halved));
+    const double most = halved < TRIANGLE_HALVINGS_MAX
+                            ? lrcsi_min(REMAINDER_MAX, TARGET_MISSED * target)
+                            : REMAINDER_MAX;
+    const triangle_rule rule = triangle_rule_choose(job, &point, radius, target * scale);
+    if (!(rule.remainder <= most * scale)) {
+        return halved < TRIANGLE_HALVINGS_MAX ? 0 : -1;
+    }
+    triangle_add(job, &point, corner, area, rule.rule, sum);
+    sum->remainder += area * rule.remainder;
+    return isfinite(sum->glint + sum->diffuse + sum->rounding + sum->remainder) ? 1 : -1;
+}
+
+/* Adds the integral over a counter-clockwise triangle. While the remainder would be too large, it
+   is halved across its longest side: near the outline G varies most in one direction. wanted: as
+   above. Returns 0 if the integral is not known. */
+static int triangle_integrate(const pieces_job *job, const double corner[3][2], double area,
+                              double wanted, lrcsi_round_sum *sum)
+{
+    double waiting[TRIANGLE_HALVINGS_MAX + 1][3][2];
+    int halved[TRIANGLE_HALVINGS_MAX + 1] = {0};
+    int count = 1;
+    int added = 1;
+    memcpy(waiting[0], corner, sizeof waiting[0]);
+    while (count > 0 && added >= 0) {
+        double triangle[3][2];
+        const int times = halved[--count];
+        memcpy(triangle, waiting[count], sizeof triangle);
+        added = triangle_try(job, (const double(*)[2])triangle, ldexp(area, -times), wanted, times,
+                             sum);
+        for (int i = 0; i < 2 && added == 0; i++) {
+            triangle_half((const double(*)[2])triangle, i, waiting[count]);
+            halved[count++] = times + 1;
         }
     }
-    return 0;
+    return added > 0;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
@@ -245,6 +266,9 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     const lrcsi_target *target = &o->single.target;
     double projected = lrcsi_view_projected(view, facet);
     double bound = facet_bound(job, facet);
+    const double uncertain =
+        job->band->whole->gain_aligned[facet] + job->band->whole->loss_aligned[facet];
+    const double wanted = lrcsi_max(job->target, BAND_FRACTION * uncertain);
     lrcsi_round_sum sum = {.glint = 0};
     double area_err = 0;
     int known = 1;
@@ -265,9 +289,9 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
                 corner[1][k] = origin[k] + polygon->corner[i - 1][k];
                 corner[2][k] = origin[k] + polygon->corner[i][k];
             }
-            known =
-                !target->needle &&
-                (!(area > 0) || triangle_integrate(job, (const double(*)[2])corner, area, &sum));
+            known = !target->needle &&
+                    (!(area > 0) ||
+                     triangle_integrate(job, (const double(*)[2])corner, area, wanted, &sum));
         }
     }
     area_err += lrcsi_occlude_piece_err(o);

@@ -14,14 +14,16 @@
 #include "integrate/wall/patch.h"
 
 /* A margin is divided into at most so many pieces. Its remainder should be this small, compared
-   with a bound on its integral. */
-#define MARGIN_PIECES_MAX 8
-#define MARGIN_TARGET     1e-6
+   with a bound on its integral; with that many pieces a larger one is accepted: an error of a
+   margin is small compared with that of leaving its sector out. */
+#define MARGIN_PIECES_MAX    32
+#define MARGIN_TARGET        1e-6
+#define MARGIN_REMAINDER_MAX 0x1p-6
 /* The rules along a piece of a margin and across it. */
 #define MARGIN_RULE_ALONG  lrcsi_mean_rules[LRCSI_MEAN_RULES - 2]
 #define MARGIN_RULE_ACROSS lrcsi_mean_rules[1]
 /* The least cosine of the incidence angle in the middle of a piece. */
-#define MIN_COSINE 0.07
+#define MIN_COSINE 0.0211
 
 const lrcsi_round_range lrcsi_round_whole_side = {-1, 1};
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
@@ -270,8 +272,8 @@ static int margin_piece_place(const lrcsi_round_wall *wall, const lrcsi_round_si
 /* The margin is divided until the remainder is small compared with its size.
 
    Inclination. Where G_max is finite over a piece, w = 1 / cos^2 is there at most 1.5 times its
-   value at the centre (integrate/wall/round_surface.h): with a cosine of 0.07 or more there,
-   w < 307 and tan < 17.5. */
+   value at the centre (integrate/wall/round_surface.h): with a cosine of 0.0211 or more
+   there, w < 3370 and tan < 58.1. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_range range, lrcsi_round_margin *margin)
 {
@@ -295,8 +297,8 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
                                                MARGIN_RULE_ACROSS.points);
             sum->rounding += size * position_err; /* of the positions of both borders */
         }
-        if (sum->remainder <= MARGIN_TARGET * margin->largest &&
-            isfinite(sum->rounding + margin->largest)) {
+        const double most = n < MARGIN_PIECES_MAX ? MARGIN_TARGET : MARGIN_REMAINDER_MAX;
+        if (sum->remainder <= most * margin->largest && isfinite(sum->rounding + margin->largest)) {
             return 1;
         }
     }

@@ -82,7 +82,7 @@ void lrcsi_round_margin_extent(const lrcsi_round_wall *wall, const lrcsi_round_s
                                lrcsi_round_range range, lrcsi_round_margin *margin);
 
 /* Makes a margin, except for the integral itself. Returns 0 if only width and area are known, or if
-   the tangent of the true surface's inclination to the view plane may exceed 17.5 above it;
+   the tangent of the true surface's inclination to the view plane may exceed 58.1 above it;
    `largest` is infinite then. */
 int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                               lrcsi_round_range range, lrcsi_round_margin *margin);

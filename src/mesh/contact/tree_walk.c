@@ -99,6 +99,13 @@ void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *w, uint32_t leaf)
     w->cone = &w->tree->cone[0][leaf];
 }
 
+/* Are nodes with this label left out? LRCS_NONE: the facets of the node do not have one label. */
+static int label_is_left_out(const lrcsi_tree_walk *w, uint32_t label)
+{
+    return label != LRCS_NONE &&
+           (label == w->without || (label < 64 && (w->also_without >> label & 1) != 0));
+}
+
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
 {
     const lrcsi_tree *tree = w->tree;
@@ -110,7 +117,7 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
         }
         uint32_t child = w->at[level] * WALK_LANES + lrcsi_tree_lane(w->mask[level]);
         w->mask[level] &= w->mask[level] - 1;
-        if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
+        if (level > 0 && label_is_left_out(w, tree->label[level - 1][child])) {
             continue;
         }
         if (level > 0 && w->cone && tree->label[level - 1][child] == w->apex &&

@@ -11,6 +11,8 @@ typedef struct lrcsi_tree_walk {
     const lrcsi_tree *tree;
     lrcsi_box box;
     uint32_t without;            /* nodes with this label are left out; LRCS_NONE: none */
+    uint64_t also_without;       /* and those with label i < 64 if bit i is set: none at the start;
+                                    bits may be set during the traversal */
     int last, level;             /* the level whose boxes are sought; the current level */
     uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
     uint32_t apart;              /* number of nodes that slabs or capsules have left out */

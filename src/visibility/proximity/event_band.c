@@ -51,24 +51,25 @@
    is negative: so it crosses no facet that meets no band.
 
    5. Aligned points. Let x now be the point of the true surface whose projection is that of
-   y, so that both lie on a line along d, at a distance of at most 60 e_P. Let every other part Q be
-   in front of P or behind it (part_order.c, 1), or have no facet within 64 slacks of the facet of y
-   (scene/proximity.h). Then (1) need not be considered, and Q hides x if and only if its facets
-   hide y, unless an event edge of Q is, in projection, within r' of both and, if Q is not in front
-   of P, not 128 slacks behind y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P = 0.
+   y, so that both lie on a line along d, at a distance of at most 180 e_P. Let every other part Q
+   be in front of P or behind it (part_order.c, 1), or have no facet within 192 slacks of the facet
+   of y (scene/proximity.h). Then (1) need not be considered, and Q hides x if and only if its
+   facets hide y, unless an event edge of Q is, in projection, within r' of both and, if Q is not in
+   front of P, not 384 slacks behind y, where r' is k_Q or, if Q is open, 2 k_Q: the slack for e_P =
+   0.
    Proof:
    - If Q is behind P, it hides neither.
    - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
      a point z changes only where the projection of z crosses an event edge. So the steps b to e
      hold for x in place of y with e_P = 0; in e a path that stays on W ends in front of x, so
      that it reaches a rim.
-   - Otherwise no facet of Q is within r' of x, or between x and y, since both are within 60 e_P +
-     r' <= 64 slacks of y. So the facets of Q hide y if and only if they hide x, and what
+   - Otherwise no facet of Q is within r' of x, or between x and y, since both are within 180 e_P +
+     r' <= 192 slacks of y. So the facets of Q hide y if and only if they hide x, and what
      proximity_band.c proves in 1 holds for x in place of y with e_P = 0. What 2 and 4 say of gain
      and loss holds as well, with delta = 0. []
    A part of a facet's side is free if every event edge of other parts that may matter is farther
    than r' + 2 e_P from it in projection. Then all points of the true surface whose projections are
-   within 2 e_P of it, and that are within 60 e_P of the facet, are visible, and so are the points
+   within 2 e_P of it, and that are within 180 e_P of the facet, are visible, and so are the points
    of the facet there; or all of them are hidden. The proof is the same.
    On the inside of an open part the part itself may hide points, by 3: x unless its projection lies
    in the projected opening of W, and y unless it lies in that of S. These openings differ within

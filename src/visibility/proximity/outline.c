@@ -55,8 +55,11 @@
 /* The number of support points on either side of the one in the direction of the edge's normal.
    Heuristic: any number gives bounds, more of them narrower ones. */
 #define POINTS_SIDE 4
-/* The same for signed areas, of which the error falls with the square of this number. */
-#define MARGIN_POINTS_SIDE 8
+/* The same for signed areas, of which the error falls with the square of this number: first the
+   smaller one, and then, if it leaves more of the error than this, the larger one. */
+#define MARGIN_POINTS_SIDE  8
+#define MARGIN_POINTS_MOST  64
+#define MARGIN_ERR_FRACTION 0x1p-12
 /* Steps of the bisection for the largest slope; heuristic likewise. */
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
@@ -101,6 +104,21 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     return o;
 }
 
+/* The unit normal of a facet's plane, on its front. The narrow facets of a disc are turned by
+   rounding far more than the disc: its normal is along the part's axis. Returns the error of the
+   normal, for the true surface that the facet stands for. */
+static double plane_normal(const lrcs_prepared *p, uint32_t facet, double n[3])
+{
+    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const lrcsi_normal *normal = &p->normal[facet];
+    const int is_disc = part->bounds.reach > 0 && part->rigid && p->scene->facet_smooth[facet] == 0;
+    const double side = lrcsi_vec3_dot(part->axis[2], normal->high) < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+        n[k] = is_disc ? side * part->axis[2][k] : normal->high[k] / normal->length;
+    }
+    return is_disc ? 0 : part->bounds.normal_err;
+}
+
 /* The vertices of a solid of facets are those of the true one, stretched across the axis by
    vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
    surface differs from its own by the rounding of its corners. Both the true solid and that of the
@@ -111,12 +129,9 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *own = &p->scene->part[p->scene->facet_part[facet]];
-    const lrcsi_normal *normal = &p->normal[facet];
     double n[3];
     double from[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = normal->high[k] / normal->length;
-    }
+    const double normal_err = plane_normal(p, facet, n);
     lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), o->origin, from);
     double up[3];
     double down[3];
@@ -128,7 +143,7 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
     double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
     double e = 2 * o->err + 64 * LRCSI_U * far;
     if (own->bounds.reach > 0) {
-        e += own->bounds.normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
+        e += normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
     }
     double lowest[3];
     double highest[3];
@@ -337,6 +352,12 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
                                  (sums.loss_depth + err) * LRCSI_OUTWARD_SUM, width};
 }
 
+/* Half of what lies between the polygon and the tangents. */
+static double sums_between(const outline_sums *sums)
+{
+    return 0.5 * lrcsi_max(0, sums->polygon - sums->tangents);
+}
+
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],
                                                const double b[3], int side, double from, double to)
 {
@@ -345,13 +366,16 @@ lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const dou
     int known = outline_edge_make(o, a, b, side, &edge);
     edge.from = from * edge.length;
     edge.to = to * edge.length;
-    known = known && outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums);
-    if (!known) {
+    if (!known || !outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums)) {
         return (lrcsi_outline_margin){0, HUGE_VAL, 0};
     }
     const double width = outline_width(&edge);
     const double err = depth_err(o, a, b) * width;
-    const double between = 0.5 * lrcsi_max(0, sums.polygon - sums.tangents);
+    outline_sums closer;
+    if (sums_between(&sums) > lrcsi_max(err, MARGIN_ERR_FRACTION * (sums.gain + sums.loss)) &&
+        outline_sums_make(&edge, MARGIN_POINTS_MOST, &closer)) {
+        sums = closer;
+    }
     return (lrcsi_outline_margin){0.5 * (sums.polygon + sums.tangents),
-                                  (between + err) * LRCSI_OUTWARD_SUM, width};
+                                  (sums_between(&sums) + err) * LRCSI_OUTWARD_SUM, width};
 }
