@@ -12,7 +12,8 @@
    although it is behind them (the same proof, with the roles exchanged). On a part without curved
    surfaces a facet is the true surface. On a curved part such a plane is used only across its own
    axis, and if its zones are level: then a facet and its patch extend over the same heights, and
-   the area of the true surface in a slab is known (lrcsi_body_slab). */
+   the area of the true surface in a slab is known (lrcsi_body_slab). It is the same in all sectors.
+   */
 #include "visibility/proximity/depth_order.h"
 
 #include <math.h>
@@ -39,10 +40,12 @@ static int has_slab(const lrcsi_body *body, int is_own)
 static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],
                                     double level, double height)
 {
-    return (lrcsi_order_proof){1,
-                               {sign * n[0], sign * n[1], sign * n[2]},
-                               level,
-                               body->curved ? lrcsi_body_slab(body, height) : 0};
+    const double sectors = body->part->divisions.around;
+    return (lrcsi_order_proof){
+        1,
+        {sign * n[0], sign * n[1], sign * n[2]},
+        level,
+        body->curved ? lrcsi_body_slab(body, height) / sectors * LRCSI_OUTWARD(4) : 0};
 }
 
 /* Tries the plane across one axis of `own`, or with own NULL across any unit vector, on one of its

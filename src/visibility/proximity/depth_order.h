@@ -13,7 +13,8 @@
 typedef struct lrcsi_order_proof {
     int known; /* 0: nothing is proved */
     double n[3], level;
-    double slab; /* a bound on the area of its true curved surface with such points */
+    double slab; /* a bound on the area with such points of any one sector of its true curved
+                    surface */
 } lrcsi_order_proof;
 
 typedef struct lrcsi_depth_order {

@@ -17,7 +17,8 @@
        part is behind P; for P itself the slack is two reaches;
    (d) of Q, only two other event edges meet N, as in face_margin.c;
    (e) at these facets, (1) holds for no part that is neither in front of P nor behind it, and no
-       part meets their interior in N;
+       part meets their interior in N; the fractions of facets for which rounding leaves this or (b)
+       open (part_order.c) count as gained and lost;
    (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet
        of the wall there is visible.
    (a) holds if N meets no other facet across the sides of those facets: N is convex, and a straight
@@ -81,6 +82,7 @@ struct lrcsi_margin_facet {
     double cos_ratio_err;         /* bound on |cos / cos' - 1|, where its part of the margin may be
                                      on another facet: cos of its own incidence angle, cos' of that
                                      facet's */
+    double unproved;              /* the fraction of it for which (b) or (e) is not proved */
     double neighbour_err;         /* the sum of this over such facets, times the length along the
                                      edge where the margin may be on them */
 };
@@ -93,7 +95,8 @@ static uint32_t margin_facets_most(const lrcs_prepared *p)
 /* --- facets of a wall ------------------------------------------------------------------------- */
 
 /* Removes the pairs of a facet with parts that are in front of its own or behind it: of such parts
-   (1) does not matter. Returns 0 if the limit of steps is reached. */
+   (1) does not matter, but for the fractions that are left open. Returns 0 if the limit of steps is
+   reached. */
 static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
 {
     lrcsi_event_bands *bands = job->bands;
@@ -108,8 +111,8 @@ static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
         }
         if (part != last) {
             double unproved = 0;
-            separated =
-                lrcsi_part_is_separated(&bands->orders, facet, part, &unproved) && unproved == 0;
+            separated = lrcsi_part_is_separated(&bands->orders, facet, part, &unproved);
+            job->open[facet] += separated ? unproved : 0;
             last = part;
         }
         if (separated) {
@@ -271,10 +274,10 @@ static int margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
     *one = (lrcsi_margin_facet){.facet = facet, .lateral = facet_lateral(job, facet)};
     if (!facet_applies(job, facet) || !facet_is_apart(job, m, facet) ||
         !(one->lateral <= m->outline->k) ||
-        !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved) ||
-        unproved > 0) {
+        !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved)) {
         return 0;
     }
+    one->unproved = unproved + job->open[facet];
     facet_position(p, facet, &one->patch);
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(view, facet, m->edge, margin_facet_slack(m, one->lateral));
@@ -473,8 +476,9 @@ static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
     to->area_max += depth * part * m->length * LRCSI_OUTWARD_NANO;
     const double known =
         margin->error + 2 * m->err * margin->width + depth * one->length_err * m->length + ends;
+    const double open = one->unproved * lrcsi_view_projected(job->bands->view, one->facet);
     to->area_err += ((1 + one->cos_ratio_err) * known + 2 * depth * one->neighbour_err +
-                     LRCSI_ROOT_2_OUTWARD * one->lateral * near) *
+                     LRCSI_ROOT_2_OUTWARD * one->lateral * near + 2 * open) *
                     LRCSI_OUTWARD_NANO;
 }
 
@@ -544,6 +548,7 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->intersections.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
 
@@ -561,14 +566,15 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
+    job->open = lrcsi_work_take_zero(work, facets, sizeof *job->open);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
     job->first_contact = lrcsi_work_take(work, facets, sizeof *job->first_contact);
     job->next_contact = lrcsi_work_take(work, contacts->count, sizeof *job->next_contact);
     job->contact = lrcsi_work_take(work, contacts->count, sizeof *job->contact);
     if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
-        !job->first_pair || !job->next_pair || !job->first_contact || !job->next_contact ||
-        !job->contact) {
+        !job->open || !job->first_pair || !job->next_pair || !job->first_contact ||
+        !job->next_contact || !job->contact) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {

@@ -37,6 +37,8 @@ typedef struct lrcsi_wall_margins {
     uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
                                          next one of the same facet; LRCS_NONE: no further one */
     unsigned char *pairs;             /* facet: what is left of them */
+    double *open;                     /* facet: the fraction for which the order of the parts of the
+                                         other pairs is not proved (part_order.h) */
     uint32_t *first_contact, *next_contact; /* facet: the first of the contacts in which it is the
                                                other one; contact: the next one, likewise */
     uint32_t *contact;                      /* contact: the facet that it belongs to */
