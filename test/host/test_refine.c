@@ -251,6 +251,26 @@ static void a_scene_becomes_the_one_that_meets_the_tolerance(void **state)
     check_becomes("test/host/refine_unbound.toml", 1);
 }
 
+/* A platform on a drum, seen from slightly below: the rim of the drum hides the lower end of the
+   platform's wall, and the two touch there. What rounding leaves open where they do is a fraction of
+   the wall that does not grow with the number of its facets: else no division meets 1e-9. */
+static void parts_that_touch_meet_a_small_tolerance(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_result result;
+    lrcs_pose pose;
+    lrcs_run_options options = lrcs_run_options_default();
+    lrcs_build_options build = lrcs_build_options_default();
+    options.tolerance = 1e-9;
+    assert_int_equal(lrcs_pose_from_azel(20, -1, &pose), LRCS_OK);
+    scene_make_limited(&scene, "test/host/stacked.toml", build.max_facets);
+    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_true(scene.scene.facet_count < 200000);
+    lrcs_host_scene_free(&scene);
+}
+
 /* Refines the scene of three parts (a cylinder, its mast, a dome) for a tolerance of 1e-6 from one
    direction. max_facets: of one shape, or 0. Returned: how often. */
 static int refine_parts(double az, double el, uint32_t max_facets, lrcs_host_scene *scene,
@@ -422,6 +442,7 @@ int main(void)
         cmocka_unit_test(a_pose_does_not_depend_on_poses_before_it),
         cmocka_unit_test(levels_come_and_go_without_a_trace),
         cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
+        cmocka_unit_test(parts_that_touch_meet_a_small_tolerance),
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
         cmocka_unit_test(one_refinement_meets_the_tolerance_without_excess),
         cmocka_unit_test(a_round_body_is_divided_up_to_the_limit_of_facets),
