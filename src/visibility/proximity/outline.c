@@ -58,8 +58,8 @@
 /* The same for signed areas, of which the error falls with the square of this number: first the
    smaller one, and then, if it leaves more of the error than this, the larger one. */
 #define MARGIN_POINTS_SIDE  8
-#define MARGIN_POINTS_MOST  64
-#define MARGIN_ERR_FRACTION 0x1p-12
+#define MARGIN_POINTS_MOST  32
+#define MARGIN_ERR_FRACTION 0x1p-10
 /* Steps of the bisection for the largest slope; heuristic likewise. */
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
