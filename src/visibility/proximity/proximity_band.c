@@ -367,9 +367,10 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
 }
 
-/* Makes the fractions of a facet beside the margins on its wall or plane face: those of all bands, less those of
-   the margins, of which margin->gain and loss are the sums until now. Each is a sum of at most two
-   terms for each event edge and one for each part, with a relative error of u for each term. */
+/* Makes the fractions of a facet beside the margins on its wall or plane face: those of all bands,
+   less those of the margins, of which margin->gain and loss are the sums until now. Each is a sum
+   of at most two terms for each event edge and one for each part, with a relative error of u for
+   each term. */
 static void margin_finish(const band_job *job, uint32_t facet)
 {
     const lrcsi_proximity_band *band = job->band;
@@ -388,9 +389,9 @@ static void margin_finish(const band_job *job, uint32_t facet)
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   4. what margins on walls and plane faces leave; mismatch, gain, loss and rows are limited to 1. gain_aligned and
-      loss_aligned may exceed it: their users compare the areas that they stand for with the
-      facet's. */
+   4. what margins on walls and plane faces leave; mismatch, gain, loss and rows are limited to 1.
+      gain_aligned and loss_aligned may exceed it: their users compare the areas that they stand for
+      with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     const lrcs_prepared *p = job->view->prepared;
