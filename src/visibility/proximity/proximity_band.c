@@ -198,6 +198,17 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
     }
 }
 
+/* What an order proof leaves open of a facet, as a fraction of its projected area, where points are
+   aligned. Above the facet there are patches of its own sector and of the two next to it
+   (integrate/wall/round_pieces.c); the fraction holds for each of them, of their areas, which are
+   no smaller than their projections. */
+static double aligned_open(const lrcsi_view *view, uint32_t facet, double unproved)
+{
+    return unproved > 0 ? 3 * unproved / fabs(lrcsi_view_incidence(view, facet).cos_theta) *
+                              LRCSI_OUTWARD_NANO
+                        : 0;
+}
+
 /* Adds the fractions near these event edges, where points are aligned, and finds the free sides. */
 static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t count)
 {
@@ -212,8 +223,9 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
             continue; /* its area is that of a margin */
         }
         if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
-            band->gain_aligned[facet] += fractions.gain + fractions.unproved;
-            band->loss_aligned[facet] += fractions.loss + fractions.unproved;
+            const double open = aligned_open(job->view, facet, fractions.unproved);
+            band->gain_aligned[facet] += fractions.gain + open;
+            band->loss_aligned[facet] += fractions.loss + open;
         }
     }
 }
@@ -240,7 +252,7 @@ static int begin_aligned(band_job *job, uint32_t facet)
         if (!lrcsi_part_is_separated(&job->bands.orders, facet, i, &unproved)) {
             return 0;
         }
-        open += unproved;
+        open += aligned_open(job->view, facet, unproved);
     }
     job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = open;
     job->band->sides[facet] = sides_free;

@@ -518,6 +518,7 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
         !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
         return 0;
     }
+    /* If N is hidden, there is no margin, and what is open stays in the fractions of bands. */
     const int visibility = wall_visibility(job, &m);
     return visibility == LRCSI_QUERY_HIDDEN ||
            (visibility == LRCSI_QUERY_VISIBLE && margin_facets_add(job, &m, turn));
