@@ -18,4 +18,15 @@ int lrcsi_neighbours_make(const lrcsi_topology *topology, uint32_t facet_count,
                           const unsigned char *redundant, const uint32_t *opposite, lrcs_work *work,
                           lrcsi_neighbours *neighbours);
 
+/* The neighbour across side k of a facet if it is another facet of the same part, else LRCS_NONE.
+ */
+static inline uint32_t lrcsi_neighbour_in_part(const lrcs_prepared *p, uint32_t facet, int k)
+{
+    const uint32_t *part = p->scene->facet_part;
+    const uint32_t other = p->neighbours.facet[facet].corner[k];
+    return other < p->scene->facet_count && other != facet && part[other] == part[facet]
+               ? other
+               : LRCS_NONE;
+}
+
 #endif

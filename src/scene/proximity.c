@@ -378,11 +378,13 @@ static void near_find(lrcs_prepared *p, uint32_t facet, const lrcsi_box *box,
     for (uint32_t at; (at = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
         const uint32_t other = tree->order[at];
         const lrcsi_part_set set = lrcsi_part_set_of(part[other]);
+        if (part[other] == part[facet] || (*near & set) != 0) {
+            continue;
+        }
         const double distance =
             LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
         const lrcsi_box other_box = lrcsi_box_of(p->vertex, &p->scene->facet[other]);
-        if (part[other] != part[facet] && (*near & set) == 0 &&
-            boxes_gap(box, &other_box) <= distance &&
+        if (boxes_gap(box, &other_box) <= distance &&
             pair_slice(p, facet, other, distance).count > 0) {
             *near |= set;
             walk.also_without |= part[other] < LRCSI_PART_SET_SINGLE ? set : 0;

@@ -251,6 +251,29 @@ static void a_scene_becomes_the_one_that_meets_the_tolerance(void **state)
     check_becomes("test/host/refine_unbound.toml", 1);
 }
 
+/* Refines a scene for a tolerance from one direction. max_facets: of one shape, or 0. Returned: how
+   often. */
+static int refine_from(const char *path, double az, double el, double tolerance,
+                       uint32_t max_facets, lrcs_host_scene *scene, lrcs_result *result,
+                       lrcs_build_options *build)
+{
+    lrcs_pose pose;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = tolerance;
+    *build = lrcs_build_options_default();
+    assert_int_equal(lrcs_pose_from_azel(az, el, &pose), LRCS_OK);
+    scene_make_limited(scene, path, max_facets ? max_facets : build->max_facets);
+    return refine(scene, &pose, &options, 1, result, build);
+}
+
+/* The scene of three parts (a cylinder, its mast, a dome) for a tolerance of 1e-6. */
+static int refine_parts(double az, double el, uint32_t max_facets, lrcs_host_scene *scene,
+                        lrcs_result *result, lrcs_build_options *build)
+{
+    return refine_from("test/host/refine_parts.toml", az, el, 1e-6, max_facets, scene, result,
+                       build);
+}
+
 /* A platform on a drum, seen from slightly below: the rim of the drum hides the lower end of the
    platform's wall, and the two touch there. What rounding leaves open where they do is a fraction of
    the wall that does not grow with the number of its facets: else no division meets 1e-9. */
@@ -259,31 +282,12 @@ static void parts_that_touch_meet_a_small_tolerance(void **state)
     (void)state;
     lrcs_host_scene scene;
     lrcs_result result;
-    lrcs_pose pose;
-    lrcs_run_options options = lrcs_run_options_default();
-    lrcs_build_options build = lrcs_build_options_default();
-    options.tolerance = 1e-9;
-    assert_int_equal(lrcs_pose_from_azel(20, -1, &pose), LRCS_OK);
-    scene_make_limited(&scene, "test/host/stacked.toml", build.max_facets);
-    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    lrcs_build_options build;
+    assert_true(refine_from("test/host/stacked.toml", 20, -1, 1e-9, 0, &scene, &result, &build) >
+                0);
     assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     assert_true(scene.scene.facet_count < 200000);
     lrcs_host_scene_free(&scene);
-}
-
-/* Refines the scene of three parts (a cylinder, its mast, a dome) for a tolerance of 1e-6 from one
-   direction. max_facets: of one shape, or 0. Returned: how often. */
-static int refine_parts(double az, double el, uint32_t max_facets, lrcs_host_scene *scene,
-                        lrcs_result *result, lrcs_build_options *build)
-{
-    lrcs_pose pose;
-    lrcs_run_options options = lrcs_run_options_default();
-    options.tolerance = 1e-6;
-    *build = lrcs_build_options_default();
-    assert_int_equal(lrcs_pose_from_azel(az, el, &pose), LRCS_OK);
-    scene_make_limited(scene, "test/host/refine_parts.toml",
-                       max_facets ? max_facets : build->max_facets);
-    return refine(scene, &pose, &options, 1, result, build);
 }
 
 /* Parts whose facets add nothing to the bound keep their facets. A mast hides some of a cylinder; a

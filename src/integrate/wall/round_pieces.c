@@ -140,15 +140,8 @@ static int triangle_centre(const pieces_job *job, const double corner[3][2],
 /* One half of a triangle, across its longest side. */
 static void triangle_half(const double corner[3][2], int which, double half[3][2])
 {
-    int from = 0; /* the corner where the longest side begins */
-    double longest = 0;
-    for (int i = 0; i < 3; i++) {
-        const double *a = corner[i];
-        const double *b = corner[(i + 1) % 3];
-        const double length = lrcsi_length_flat(b[0] - a[0], b[1] - a[1]);
-        from = length > longest ? i : from;
-        longest = lrcsi_max(longest, length);
-    }
+    double square;
+    const int from = lrcsi_clip_longest_side(corner, &square);
     const double *a = corner[from];
     const double *b = corner[(from + 1) % 3];
     for (int k = 0; k < 2; k++) {

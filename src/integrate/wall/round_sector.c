@@ -12,6 +12,7 @@
 #include "base/vec3.h"
 #include "integrate/wall/mean_rule.h"
 #include "integrate/wall/patch.h"
+#include "scene/neighbours.h"
 
 /* A margin is divided into at most so many pieces. Its remainder should be this small, compared
    with a bound on its integral; with that many pieces a larger one is accepted: an error of a
@@ -357,8 +358,7 @@ static int side_find(const lrcsi_round_wall *wall, const lrcsi_round_sector *sec
         uint32_t a = p->scene->facet[f].corner[i % 3];
         uint32_t b = p->scene->facet[f].corner[(i + 1) % 3];
         if ((a == vertex[0] && b == vertex[1]) || (a == vertex[1] && b == vertex[0])) {
-            uint32_t other = p->neighbours.facet[f].corner[i % 3];
-            side->neighbour = other < p->scene->facet_count && other != f ? other : LRCS_NONE;
+            side->neighbour = lrcsi_neighbour_in_part(p, f, i % 3);
             side->facet = f;
             side->corner = i % 3;
             return 1;

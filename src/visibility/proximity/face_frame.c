@@ -10,6 +10,7 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
+#include "scene/neighbours.h"
 
 /* The least cosine of the face's incidence. A heuristic, so that distances in the plane follow from
    those in projection. */
@@ -26,13 +27,10 @@ int lrcsi_face_has_facet(const lrcsi_view *view, uint32_t facet)
 
 unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet)
 {
-    const lrcs_prepared *p = view->prepared;
     unsigned sides = 0;
-    for (unsigned k = 0; k < 3; k++) {
-        const uint32_t other = p->neighbours.facet[facet].corner[k];
-        if (other >= p->scene->facet_count || other == facet ||
-            p->scene->facet_part[other] != p->scene->facet_part[facet] ||
-            !lrcsi_face_has_facet(view, other)) {
+    for (int k = 0; k < 3; k++) {
+        const uint32_t other = lrcsi_neighbour_in_part(view->prepared, facet, k);
+        if (other == LRCS_NONE || !lrcsi_face_has_facet(view, other)) {
             sides |= 1u << k;
         }
     }

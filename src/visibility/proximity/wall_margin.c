@@ -53,6 +53,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/shape/tessellate.h"
+#include "scene/neighbours.h"
 #include "visibility/uniform/query.h"
 
 /* An edge whose margin meets more facets is not used: heuristic. */
@@ -314,13 +315,12 @@ static int margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *
             return 0;
         }
         for (int k = 0; k < 3; k++) {
-            const uint32_t other = p->neighbours.facet[f].corner[k];
+            const uint32_t other = lrcsi_neighbour_in_part(p, f, k);
             if (lrcsi_segment_part_is_empty(lrcsi_edge_rectangle_part(
                     &box, view->point[corner[k]].x, view->point[corner[(k + 1) % 3]].x))) {
                 continue;
             }
-            if (other >= p->scene->facet_count || other == f ||
-                p->scene->facet_part[other] != p->scene->facet_part[f]) {
+            if (other == LRCS_NONE) {
                 return 0; /* a border */
             }
             if (lrcsi_marked(&job->reached, other)) {
