@@ -21,6 +21,7 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
+#include "integrate/wall/open_sectors.h"
 #include "integrate/wall/round_rim.h"
 #include "visibility/raster/preview.h"
 #include "visibility/raster/visible.h"
@@ -78,8 +79,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     if (moments_wanted(prepared)) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_terms)));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_terms)));
         need = lrcsi_work_add(need, lrcsi_round_rim_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_open_sectors_need(prepared));
     }
     if (prepared->proximity.reach) {
         need = lrcsi_work_add(
@@ -119,8 +121,8 @@ static int run_allocate(lrcsi_sigma *run)
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
     memory->moment = moments ? lrcsi_work_take(run->work, facets, sizeof *memory->moment) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    memory->round_terms =
-        moments ? lrcsi_work_take(run->work, facets, sizeof *memory->round_terms) : NULL;
+    memory->wall_terms =
+        moments ? lrcsi_work_take(run->work, facets, sizeof *memory->wall_terms) : NULL;
     int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;
     memory->face =
         faces ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *memory->face) : NULL;
@@ -128,7 +130,7 @@ static int run_allocate(lrcsi_sigma *run)
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
     return (memory->visible || !areas) &&
-                   ((memory->moment && run->corrected && memory->round_terms) || !moments) &&
+                   ((memory->moment && run->corrected && memory->wall_terms) || !moments) &&
                    (memory->face || !faces) &&
                    ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK

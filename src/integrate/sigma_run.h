@@ -39,10 +39,10 @@ typedef struct lrcsi_sigma_request {
 
 /* Room for what the stages find, as far as the plan's method needs it. */
 typedef struct lrcsi_sigma_memory {
-    lrcsi_visible_area *visible;    /* [facet_count]; NULL: the plan implies all areas */
-    lrcsi_moment *moment;           /* [facet_count]; NULL: moments are not wanted */
-    lrcsi_round_terms *round_terms; /* [facet_count]; NULL: pieces are not wanted */
-    lrcsi_flat_face *face;          /* [part_count]; NULL: no margins on flat faces are wanted */
+    lrcsi_visible_area *visible;  /* [facet_count]; NULL: the plan implies all areas */
+    lrcsi_moment *moment;         /* [facet_count]; NULL: moments are not wanted */
+    lrcsi_wall_terms *wall_terms; /* [facet_count]; NULL: pieces are not wanted */
+    lrcsi_flat_face *face;        /* [part_count]; NULL: no margins on flat faces are wanted */
 } lrcsi_sigma_memory;
 
 /* The state of a run and, at its end, what the stages found. */
@@ -139,7 +139,7 @@ void lrcsi_attempts_end(lrcsi_sigma *run, lrcsi_attempts *attempts);
 int lrcsi_sigma_classify(lrcsi_sigma *run, lrcsi_meter *meter, int retries);
 
 /* Makes the attempt attempts->current: finds visible areas. Returned: how it ended and, if they
-   were found, run->areas, without round_terms and face, and run->outcome, without its total.
+   were found, run->areas, without wall_terms and face, and run->outcome, without its total.
    Status: LRCS_OK, however it ended; others as lrcs_sigma_run. */
 int lrcsi_sigma_search(lrcsi_sigma *run, lrcsi_attempts *attempts);
 

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "integrate/sigma_run.h"
+#include "integrate/wall/open_sectors.h"
 #include "integrate/wall/round_pieces.h"
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
@@ -129,7 +130,8 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. masks the facets of the proximity band that are hidden, chooses the flat faces whose margins
-      are used, and integrates over the visible pieces of round walls.
+      are used, and integrates over the insides of open walls on which only their own rims cast
+      shadows, and over the visible pieces of round walls.
    Steps are taken from the given meter, that of the attempt. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {
@@ -154,8 +156,10 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
         run->areas.margins = &run->masked;
     }
     if (run_band(run) && run->areas.moment) {
+        lrcsi_open_sectors_make(&run->view, &run->plan, &run->masked, memory->visible,
+                                run->request.derivatives, run->work, memory->wall_terms);
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, memory->visible,
-                                run->request.derivatives, meter, run->work, memory->round_terms);
-        run->areas.round_terms = memory->round_terms;
+                                run->request.derivatives, meter, run->work, memory->wall_terms);
+        run->areas.wall_terms = memory->wall_terms;
     }
 }

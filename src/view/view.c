@@ -139,11 +139,21 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
         view, incidence_dot_of(view, facet, product, normal_err(n) * view->length));
 }
 
-int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn)
+/* Of a facet's normal; not a number if it has none. */
+static double normal_cosine(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
-    double cosine = lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
-    return !(cosine <= -(turn + LRCSI_VIEW_COS_ERR)); /* also if the facet has no normal */
+    return lrcsi_vec3_dot(n->high, view->direction) / (n->length * view->length);
+}
+
+int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn)
+{
+    return !(normal_cosine(view, facet) <= -(turn + LRCSI_VIEW_COS_ERR));
+}
+
+int lrcsi_view_may_show_both(const lrcsi_view *view, uint32_t facet, double turn)
+{
+    return !(fabs(normal_cosine(view, facet)) >= turn + LRCSI_VIEW_COS_ERR);
 }
 
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)

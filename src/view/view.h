@@ -147,6 +147,9 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
    facet is not skipped. */
 int lrcsi_view_may_face(const lrcsi_view *view, uint32_t facet, double turn);
 
+/* The same: may it face the laser in one place, and face away in another? */
+int lrcsi_view_may_show_both(const lrcsi_view *view, uint32_t facet, double turn);
+
 /* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:
    incidence[count]. */
 #define LRCSI_INCIDENCES 32u

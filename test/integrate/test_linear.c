@@ -219,7 +219,7 @@ static void shape_check(void)
     lrcsi_revolution body = lrcsi_revolution_make(&shape, &part->divisions);
     uint32_t step = 29 + part->facet_count / 40;
     for (uint32_t f = (uint32_t)(step * random_unit(&seed)); f < part->facet_count; f += step) {
-        lrcsi_patches evaluated = {.negligible = 0};
+        lrcsi_patches evaluated = {.derivatives = 0};
         lrcsi_linear linear;
         const lrcsi_patch *patch = s.view.prepared->skip[f]
                                        ? NULL
@@ -255,7 +255,7 @@ static void f_is_within_the_bounds_of_the_linear_function(void **state)
 static lrcsi_patch tilted_patch(const patch_scene *s, const lrcs_brdf *brdf)
 {
     for (uint32_t f = 0; f < s->scene.part[0].facet_count; f++) {
-        lrcsi_patches evaluated = {.negligible = 0};
+        lrcsi_patches evaluated = {.derivatives = 0};
         double c = lrcsi_view_incidence(&s->view, f).cos_theta;
         const lrcsi_patch *patch =
             c > 0.3 && c < 0.8 ? lrcsi_patch_make(&s->view, &s->plan, brdf, f, &evaluated) : NULL;

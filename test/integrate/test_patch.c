@@ -119,7 +119,7 @@ static double cell_integral(const patch_scene *s, const lrcs_brdf *brdf, const l
     return sum;
 }
 
-/* 12 parts of each parameter; those that are edge-on in part are halved in both, five times. */
+/* 24 parts of each parameter; those that are edge-on in part are halved in both, five times. */
 static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
                         double *error)
 {
@@ -127,13 +127,13 @@ static double reference(const patch_scene *s, const lrcs_brdf *brdf, const lrcsi
     double wide = 4 * acos(0.0) / s->scene.part[0].divisions.around;
     double sum = 0;
     *error = 0;
-    for (int i = 0; i < 144; i++) {
+    for (int i = 0; i < 576; i++) {
         int count = 1;
-        list[0] = (cell){(i / 12 + 0.5) / 12, wide * (patch->at.sector + (i % 12 + 0.5) / 12),
-                         1.0 / 24, wide / 24};
+        list[0] = (cell){(i / 24 + 0.5) / 24, wide * (patch->at.sector + (i % 24 + 0.5) / 24),
+                         1.0 / 48, wide / 48};
         while (count > 0) {
             const cell at = list[--count];
-            if (at.half_t < 1.0 / 24 / 31 || !cell_is_edge_on(s, brdf, patch, &at)) {
+            if (at.half_t < 1.0 / 48 / 31 || !cell_is_edge_on(s, brdf, patch, &at)) {
                 sum += cell_integral(s, brdf, patch, &at, error);
                 continue;
             }
@@ -196,7 +196,7 @@ static void shape_check(int uneven)
     patch_scene_make(&shape, division, &brdf, 1, d, &s);
     const lrcs_part *part = &s.scene.part[0];
     for (uint32_t f = (uint32_t)(37 * random_unit(&seed)); f < part->facet_count; f += 37) {
-        lrcsi_patches patches = {.negligible = 0};
+        lrcsi_patches patches = {.derivatives = 0};
         const lrcsi_patch *patch = s.view.prepared->skip[f]
                                        ? NULL
                                        : lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
@@ -303,7 +303,7 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
     s.place = place;
     patch_scene_make(&shape, division, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
-        lrcsi_patches patches = {.negligible = 0};
+        lrcsi_patches patches = {.derivatives = 0};
         const lrcsi_patch *patch = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
         assert_non_null(patch);
         sum += (patch->glint + patch->diffuse) * 0.5 * s.view.prepared->normal[f].length;
@@ -328,7 +328,7 @@ static void means_at_the_limb_are_known_and_flat_parts_have_none(void **state)
     s.place = place;
     patch_scene_make(&shape, division, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.facet_count; f++) {
-        lrcsi_patches patches = {.negligible = 0};
+        lrcsi_patches patches = {.derivatives = 0};
         double cosine = fabs(lrcsi_view_incidence(&s.view, f).cos_theta);
         const lrcsi_patch *patch = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
         int made = patch != NULL;
@@ -363,10 +363,10 @@ static void each_material_has_its_own_mean_over_a_patch(void **state)
     while (!(lrcsi_view_incidence(&s.view, facet).cos_theta > 0.5)) {
         facet++;
     }
-    lrcsi_patches kept = {.negligible = 0};
+    lrcsi_patches kept = {.derivatives = 0};
     double before = 0;
     for (size_t i = 0; i < sizeof brdf / sizeof *brdf; i++) {
-        lrcsi_patches fresh = {.negligible = 0};
+        lrcsi_patches fresh = {.derivatives = 0};
         const lrcsi_patch *want = lrcsi_patch_make(&s.view, &s.plan, &brdf[i], facet, &fresh);
         const lrcsi_patch *got = lrcsi_patch_make(&s.view, &s.plan, &brdf[i], facet, &kept);
         assert_non_null(want);

@@ -381,6 +381,7 @@ static void check_facets(const built *b, const double d[3], const lrcs_profile *
     lrcs_result r;
     lrcs_run_options options = lrcs_run_options_default();
     options.method = LRCS_METHOD_EXACT;
+    options.tolerance = 1e-6; /* that of a profile, on which means over patches depend */
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     size_t need = lrcs_sigma_need(b->prepared, &options);
     void *memory = memory_of(need);

@@ -77,28 +77,32 @@ static double inside(const lrcs_brdf *brdf, double height, const double d[3])
     return -d[2] * sum;
 }
 
-/* The integral of f_r cos^2 over the points of the outside that face the laser: the same rules in
-   the radius or the height, and around. */
+/* The integral of f_r cos^2 over the points of the outside that face the laser, with d_x > 0: the
+   same rules in the radius or the height, and around up to the azimuth where the surface is edge-on.
+   There, and at the top, the integrand ends like a power above 1, which the substitutions
+   phi = end (3 x^2 - 2 x^3) and, of a dome's height, 1 - (1 - t)^2 make smooth enough. */
 static double outside(const lrcs_brdf *brdf, double height, const double d[3])
 {
     const int n = 800;
     double sum = 0;
     for (int i = 0; i < 2 * n; i++) {
         double t = (i / 2 + 0.5 + (i % 2 ? 0.5 : -0.5) * 0.57735026918962576451) / n;
-        double rho = height > 0 ? RADIUS * t : RADIUS * sqrt((1 - t) * (1 + t));
+        double z = t * (2 - t); /* of a dome, divided by its radius */
+        double rho = height > 0 ? RADIUS * t : RADIUS * sqrt((1 - z) * (1 + z));
         double area = height > 0 ? RADIUS * rho * hypot(1, 2 * height * rho / (RADIUS * RADIUS))
-                                 : RADIUS * RADIUS;
-        for (int k = 0; k < n / 2; k++) {
-            double phi = 2 * PI * (k + 0.5) / n;
-            const double x[3] = {rho * cos(phi), rho * sin(phi), RADIUS * t};
-            double g[3];
-            gradient(height, x, g);
-            double cosine = (g[0] * d[0] + g[1] * d[1] + g[2] * d[2]) /
-                            sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-            sum += cosine > 0 ? reflect(brdf, cosine) * area : 0;
+                                 : RADIUS * RADIUS * 2 * (1 - t);
+        double g[3];
+        gradient(height, (const double[3]){rho, 0, RADIUS * z}, g);
+        double edge_on = -g[2] * d[2] / (g[0] * d[0]);
+        double end = edge_on >= 1 ? 0 : edge_on <= -1 ? PI : acos(edge_on);
+        for (int k = 0; k < 2 * n; k++) {
+            double x = (k / 2 + 0.5 + (k % 2 ? 0.5 : -0.5) * 0.57735026918962576451) / n;
+            double phi = end * x * x * (3 - 2 * x);
+            double cosine = (g[0] * d[0] * cos(phi) + g[2] * d[2]) / hypot(g[0], g[2]);
+            sum += cosine > 0 ? reflect(brdf, cosine) * area * end * 6 * x * (1 - x) : 0;
         }
     }
-    return 2 * sum * (2 * PI / n) * 0.5 / n;
+    return 2 * sum * 0.25 / n / n;
 }
 
 /* The shape, and a box so far to the side that it hides nothing. */
@@ -291,7 +295,7 @@ static void rim_sum(const patch_scene *s, lrcsi_visible_area area, lrcsi_part_se
                     int unknown, double *terms_sum, double *own)
 {
     static unsigned char memory[1u << 16];
-    static lrcsi_round_terms terms[FACETS];
+    static lrcsi_wall_terms terms[FACETS];
     static lrcsi_visible_area visible[FACETS];
     static lrcsi_part_set parts[FACETS];
     const uint32_t count = s->scene.part[0].facet_count;
@@ -301,14 +305,16 @@ static void rim_sum(const patch_scene *s, lrcsi_visible_area area, lrcsi_part_se
     assert_true(count <= FACETS);
     for (uint32_t f = 0; f < count; f++) {
         const int is_inside = s->view.facing[f] < 0;
-        terms[f] = (lrcsi_round_terms){.known = is_inside && (int)(f % 7) >= unknown, .bound = 2};
+        terms[f] = (lrcsi_wall_terms){.bound = 2};
+        terms[f].way = is_inside && (int)(f % 7) >= unknown ? LRCSI_WALL_PIECES : LRCSI_WALL_FACET;
         visible[f] = is_inside ? area : (lrcsi_visible_area){.area = 0};
         parts[f] = lrcsi_part_set_of(0) | others;
     }
     assert_int_equal(lrcsi_round_rim_add(&inside, &band, visible, &work, terms), 1);
     *terms_sum = *own = 0;
     for (uint32_t f = 0; f < count; f++) {
-        assert_true(terms[f].known || (terms[f].sum.diffuse == 0 && terms[f].sum.remainder == 0));
+        assert_true(terms[f].way == LRCSI_WALL_PIECES ||
+                    (terms[f].sum.diffuse == 0 && terms[f].sum.remainder == 0));
         *terms_sum += fabs(terms[f].sum.diffuse) + fabs(terms[f].sum.glint);
         *own += terms[f].sum.remainder;
     }

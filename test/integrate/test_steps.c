@@ -59,7 +59,7 @@ static void check_method(int method, uint32_t fine)
     double curves = HUGE_VAL;
     for (uint64_t steps = 1; steps < all.steps; steps += 1 + steps / fine) {
         double less = check_part(&all, method, steps);
-        assert_true(less <= curves * (1 + 1e-5)); /* what counts as negligible follows sigma */
+        assert_true(less <= curves * (1 + 1e-9));
         curves = less;
     }
     check_part(&all, method, all.steps - 1);

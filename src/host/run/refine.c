@@ -20,7 +20,7 @@
 
 /* Heuristics: the error due to a part falls by these factors with every halving (choices_start). If
    it falls less, the part is halved again; if it falls more, there are more facets than needed. */
-#define ROUND_FACTOR    0.30
+#define ROUND_FACTOR    0.27
 #define STRAIGHT_FACTOR 0.48
 /* Of a straight wall that has been halved before: measured as 0.50 to 0.55. */
 #define STRAIGHT_FACTOR_LATER 0.50

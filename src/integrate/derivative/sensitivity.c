@@ -144,7 +144,7 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
 /* The response of a facet of a round wall whose visible pieces are known: from the integrals over
    these, divided by the amplitudes. Terms of amplitude 0, which these integrals do not include, are
    those of the facet: `at` per unit of area, times a weight. */
-static lrcsi_unit_response pieces_response(const lrcs_brdf *own, const lrcsi_round_terms *wall,
+static lrcsi_unit_response pieces_response(const lrcs_brdf *own, const lrcsi_wall_terms *wall,
                                            double weight, const lrcsi_unit_response *at)
 {
     lrcsi_unit_response sum = {weight * at->glint, weight * at->diffuse, weight * at->glint_s,
@@ -164,14 +164,13 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
                          lrcsi_response *response)
 {
     lrcsi_areas areas = run->areas;
-    areas.round_terms = as_sigma ? areas.round_terms : NULL; /* at the run's parameters only */
+    areas.wall_terms = as_sigma ? areas.wall_terms : NULL; /* at the run's parameters only */
     const lrcsi_view *view = &run->view;
     const lrcsi_plan *plan = &run->plan;
     const lrcsi_clear_shapes *clear = &run->clear;
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
     lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}}; /* response_patches */
-    patches[0].negligible = as_sigma ? run->outcome.total.negligible_remainder : 0;
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
@@ -179,7 +178,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
             !lrcsi_areas_is_summed(&areas, view, f)) {
             continue;
         }
-        const lrcsi_round_terms *wall = lrcsi_areas_round_terms(&areas, f);
+        const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(&areas, f);
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         double fraction = visible_fraction(&areas, run, f, &incidence);

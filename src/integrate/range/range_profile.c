@@ -77,6 +77,9 @@
    curved normals; the cubature aims at a tenth of it. */
 #define CURVE_TOLERANCE 1e-6
 
+/* That of means over patches (integrate/wall/patch.c). */
+#define PATCH_TOLERANCE 1e-6
+
 /* The state of a run. */
 typedef struct profile_run {
     const lrcs_prepared *prepared;
@@ -456,7 +459,7 @@ static int curved_make(profile_run *run, lrcsi_classification *classification, l
 static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
-    const lrcs_run_options options = {.method = LRCS_METHOD_EXACT};
+    const lrcs_run_options options = {.method = LRCS_METHOD_EXACT, .tolerance = PATCH_TOLERANCE};
     const lrcsi_clear_shapes clear = {0};
     lrcsi_classification classification;
     lrcsi_occlusion *o = NULL;

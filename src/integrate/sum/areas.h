@@ -8,7 +8,7 @@
 #include "integrate/plan/plan.h"
 #include "integrate/wall/flat_face.h"
 #include "integrate/wall/patch_visibility.h"
-#include "integrate/wall/round_terms.h"
+#include "integrate/wall/wall_terms.h"
 #include "visibility/base/visible_area.h"
 #include "visibility/uniform/query.h"
 
@@ -17,8 +17,8 @@
 typedef struct lrcsi_areas {
     const lrcsi_visible_area *visible; /* NULL: method facet */
     const unsigned char *answer;
-    const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
-    const lrcsi_round_terms *round_terms; /* what facets on curved walls add; NULL: not known */
+    const lrcsi_moment *moment;         /* of the visible regions of all facets; NULL: not known */
+    const lrcsi_wall_terms *wall_terms; /* what facets on curved walls add; NULL: not known */
     const lrcsi_flat_face *face;      /* [part_count]: margins on flat faces; NULL: none are used */
     const lrcsi_masked_band *margins; /* its margins facet by facet are used; NULL: none are */
 } lrcsi_areas;
@@ -30,11 +30,12 @@ static inline int lrcsi_areas_answered(const lrcsi_areas *areas, uint32_t facet)
 }
 
 /* What a facet on a curved wall adds, or NULL if that is not known. */
-static inline const lrcsi_round_terms *lrcsi_areas_round_terms(const lrcsi_areas *areas,
-                                                               uint32_t facet)
+static inline const lrcsi_wall_terms *lrcsi_areas_wall_terms(const lrcsi_areas *areas,
+                                                             uint32_t facet)
 {
-    return areas->round_terms && areas->round_terms[facet].known ? &areas->round_terms[facet]
-                                                                 : NULL;
+    return areas->wall_terms && areas->wall_terms[facet].way != LRCSI_WALL_FACET
+               ? &areas->wall_terms[facet]
+               : NULL;
 }
 
 /* What is to be added to the visible area of a facet because of margins between the outlines of
@@ -80,12 +81,16 @@ static inline int lrcsi_areas_may_be_visible(const lrcsi_areas *areas, uint32_t 
 }
 
 /* Does the sum of Eq. 2 include a facet that faces the laser and reflects towards it? By any
-   method. */
+   method. Of a sector that is integrated over its patch something may be visible even if nothing is
+   of its facets. */
 static inline int lrcsi_areas_is_summed(const lrcsi_areas *areas, const lrcsi_view *view,
                                         uint32_t facet)
 {
-    return areas->visible ? lrcsi_areas_may_be_visible(areas, facet)
-                          : lrcsi_view_casts(view, facet);
+    if (!areas->visible) {
+        return lrcsi_view_casts(view, facet);
+    }
+    return lrcsi_areas_may_be_visible(areas, facet) ||
+           (areas->wall_terms && areas->wall_terms[facet].way == LRCSI_WALL_PATCH);
 }
 
 /* The visible area of a facet that may be visible. Given: areas of any method but facet. */

@@ -6,13 +6,12 @@
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
    fraction 1e-9 + 2 u per facet, for their own rounding: 2 u per facet for the sums, and far more
    than the few operations on each term need. The steps of lrcsi_total_make:
-   1. negligible_remainder, if facets represent patches: how accurate the means over these must be;
-   2. records_start, if records are asked for: all of them except sigma;
-   3. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
+   1. records_start, if records are asked for: all of them except sigma;
+   2. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
       doubles (total_packet.c), the others one by one (total_facet.c);
-   4. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
-   5. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
-   6. total_finish: conversion to square metres, and the rounding of the sums. */
+   3. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
+   4. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
+   5. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/sum/total.h"
 
 #include <math.h>
@@ -24,10 +23,6 @@
 #include "integrate/sum/facet_terms.h"
 #include "integrate/wall/tessellation.h"
 #include "optics/reflect.h"
-
-/* The remainders of all patches together are to be at most this fraction of the tolerance: small,
-   so that bounds change little. */
-#define REMAINDER_FRACTION 0x1p-10
 
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
@@ -49,59 +44,13 @@ static void add_tessellation_errors(lrcsi_total_run *run)
     }
 }
 
-/* The BRDF with a glint as wide as that of a facet of a curved wall: neighbouring facets differ by
-   up to its turn. */
-static lrcs_brdf brdf_widened(const lrcs_brdf *brdf, double turn)
-{
-    lrcs_brdf wide = *brdf;
-    double square = brdf->s * brdf->s + turn * turn;
-    if (brdf->A > 0 && square > 0) {
-        wide.A = brdf->A * (brdf->s * brdf->s / square);
-        wide.s = sqrt(square);
-    }
-    return wide;
-}
-
-/* The remainder that can be neglected in the mean over a patch: REMAINDER_FRACTION of the
-   tolerance, divided among the patches by area. Where the glint is dim, or reaches only one end of
-   a patch, this saves most of the work. Sigma is estimated from the normals of facets. This is a
-   choice without a proof: the remainders are part of the bound, whatever they are. */
-static double negligible_remainder(const lrcsi_total_run *run)
-{
-    const lrcs_prepared *p = run->view->prepared;
-    const lrcsi_batches *b = &p->batches;
-    const double *d = run->view->unit;
-    double sum = 0;   /* sigma / 4 pi */
-    double areas = 0; /* of facets with patches */
-    for (uint32_t at = 0; at < b->count; at++) {
-        uint32_t facet = b->facet[at];
-        double cosine =
-            fabs(lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], d));
-        if (!lrcsi_view_reflects(run->view, facet) || !(cosine > 0) ||
-            (run->areas->visible && !lrcsi_areas_may_be_visible(run->areas, facet))) {
-            continue;
-        }
-        const lrcs_part *part = lrcsi_patch_part(p, facet);
-        int has_patch = lrcsi_patch_exists(p, facet);
-        lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, facet));
-        brdf = brdf_widened(&brdf, has_patch ? part->bounds.patch.turn : 0);
-        lrcsi_reflection f =
-            lrcsi_reflect(&brdf, (1 - cosine) * (1 + cosine) / (cosine * cosine), 0);
-        double visible = run->areas->visible ? lrcsi_areas_value(run->areas, run->view, facet)
-                                             : b->area[at] * cosine;
-        sum += (f.glint + f.diffuse) * (visible / cosine);
-        areas += has_patch ? b->area[at] : 0;
-    }
-    return areas > 0 && isfinite(sum) ? REMAINDER_FRACTION * run->plan->tolerance * sum / areas : 0;
-}
-
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
    proportion to that of the flat facets or, if they have none, to the projected areas. */
 static void record_shape(lrcsi_total_run *run, const lrcs_part *part,
                          const lrcsi_shape_terms *terms)
 {
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
-    lrcsi_patches patches = {.negligible = run->patches.negligible};
+    lrcsi_patches patches = {.derivatives = 0};
     uint32_t end = part->first_facet + part->facet_count;
     for (int adding = 1; adding >= 0; adding--) { /* first the sums, then the shares of each */
         for (uint32_t f = part->first_facet; f < end; f++) {
@@ -215,27 +164,23 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (areas->moment) {
         memset(details->corrected, 0, p->scene->facet_count);
     }
-    if (plan->patches) { /* 1 */
-        run.patches.negligible = negligible_remainder(&run);
-        run.total.negligible_remainder = run.patches.negligible;
-    }
-    if (details->records) { /* 2 */
+    if (details->records) { /* 1 */
         records_start(&run);
     }
     int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
     run.bounds_tessellation = replaced && lrcsi_tessellation_known(p, plan);
-    for (uint32_t i = 0; i < p->scene->material_count; i++) { /* 3 */
+    for (uint32_t i = 0; i < p->scene->material_count; i++) { /* 2 */
         lrcsi_total_add_material(&run, i);
     }
-    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) { /* 4 */
+    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) { /* 3 */
         if (run.clear->part[i]) {
             add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
-    if (run.bounds_tessellation) { /* 5 */
+    if (run.bounds_tessellation) { /* 4 */
         add_tessellation_errors(&run);
     }
-    total_finish(&run); /* 6 */
+    total_finish(&run); /* 5 */
     const double shared = run.shared_reach > 0 ? run.shared_error / run.shared_reach : 0;
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         const double share =

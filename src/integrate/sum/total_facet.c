@@ -86,7 +86,7 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
         add_sigma(run, facet, curve_terms->glint, curve_terms->diffuse);
         return;
     }
-    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
+    const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(run->areas, facet);
     if (wall) {
         double glint = LRCS_FOUR_PI * wall->sum.glint;
         double diffuse = LRCS_FOUR_PI * wall->sum.diffuse;
@@ -189,7 +189,7 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
 
 /* Adds the tessellation error of a facet on a wall whose visible pieces are known: what other parts
    cause, and what its own part causes. */
-static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_terms *wall)
+static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_wall_terms *wall)
 {
     run->sums.above += LRCS_FOUR_PI * (wall->above + wall->sum.remainder);
     run->sums.below += LRCS_FOUR_PI * (wall->below + wall->sum.remainder);
@@ -231,7 +231,7 @@ static void add_margin(lrcsi_total_run *run, uint32_t facet, const lrcsi_inciden
 void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
                                   const lrcsi_incidence *incidence)
 {
-    const lrcsi_round_terms *wall = lrcsi_areas_round_terms(run->areas, facet);
+    const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(run->areas, facet);
     if (lrcsi_total_in_clear_shape(run, facet)) {
         return;
     }

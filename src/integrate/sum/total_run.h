@@ -21,7 +21,6 @@ typedef struct lrcsi_total {
     double projected, back_side;
     uint32_t back_sides, hidden, partial; /* facets */
     uint32_t seen; /* the bits GLINT and DIFFUSE, if some facet that may be visible has that term */
-    double negligible_remainder; /* of means over patches (lrcsi_patches); scaled, not m^2 */
 } lrcsi_total;
 
 /* What the sum gives in detail, by facet and by part; each may be NULL. */

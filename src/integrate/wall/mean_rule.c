@@ -2,6 +2,11 @@
 /* The rules, generated to 50 digits with Newton's method. */
 #include "integrate/wall/mean_rule.h"
 
+#include <math.h>
+
+#include "base/outward.h"
+#include "base/range.h"
+
 const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES] = {
     {2, 1, {0.577350269189625764509}, {0.5}},
     {3, 2, {0.0, 0.774596669241483377035}, {0.444444444444444444444, 0.277777777777777777777}},
@@ -23,6 +28,19 @@ const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES] = {
       0.960289856497536231683},
      {0.181341891689180991482, 0.156853322938943643668, 0.111190517226687235272,
       0.050614268145188129576}}};
+
+void lrcsi_mean_rule_bound(double most, double r, double error[LRCSI_MEAN_RULES])
+{
+    const double inverse = r - sqrt((r - 1) * (r + 1)); /* 1 / rho */
+    const double q = inverse * inverse;
+    double bound = most * (32.0 / 15) / (1 - q) * LRCSI_OUTWARD_NANO;
+    for (int n = 0, k = 0; n < LRCSI_MEAN_RULES && most < HUGE_VAL; n++) {
+        for (; k < lrcsi_mean_rules[n].points; k++) {
+            bound *= q;
+        }
+        error[n] = lrcsi_min(error[n], bound);
+    }
+}
 
 int lrcsi_mean_rule_choose(const double error[LRCSI_MEAN_RULES], double target)
 {

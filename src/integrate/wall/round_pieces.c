@@ -253,7 +253,7 @@ static double facet_bound(const pieces_job *job, uint32_t facet)
 
 /* Integrates over the visible pieces of a facet. Returns 0 if that is not possible. */
 static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t facet,
-                           lrcsi_round_terms *terms)
+                           lrcsi_wall_terms *terms)
 {
     const lrcsi_view *view = job->view;
     const lrcsi_target *target = &o->single.target;
@@ -292,13 +292,13 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     double gain =
         lrcsi_min(job->band->whole->gain_aligned[facet] * projected, projected - area.low);
     double loss = lrcsi_min(job->band->whole->loss_aligned[facet] * projected, area.high);
-    *terms = (lrcsi_round_terms){.known = 1,
-                                 .sum = sum,
-                                 .visibility =
-                                     bound * (area.high - area.low + area_err) * LRCSI_OUTWARD_NANO,
-                                 .above = bound * lrcsi_max(0, gain) * LRCSI_OUTWARD_NANO,
-                                 .below = bound * lrcsi_max(0, loss) * LRCSI_OUTWARD_NANO,
-                                 .bound = bound * LRCSI_OUTWARD_NANO};
+    *terms = (lrcsi_wall_terms){.way = LRCSI_WALL_PIECES,
+                                .sum = sum,
+                                .visibility =
+                                    bound * (area.high - area.low + area_err) * LRCSI_OUTWARD_NANO,
+                                .above = bound * lrcsi_max(0, gain) * LRCSI_OUTWARD_NANO,
+                                .below = bound * lrcsi_max(0, loss) * LRCSI_OUTWARD_NANO,
+                                .bound = bound * LRCSI_OUTWARD_NANO};
     return known;
 }
 
@@ -327,14 +327,14 @@ static int facet_is_eligible(const pieces_job *job, uint32_t facet)
 }
 
 /* Does a facet belong to the set, on this side of the wall? It may be LRCS_NONE. */
-static int is_in_set(const pieces_job *job, const lrcsi_round_terms *terms, uint32_t facet)
+static int is_in_set(const pieces_job *job, const lrcsi_wall_terms *terms, uint32_t facet)
 {
-    return facet != LRCS_NONE && terms[facet].known && is_on_side(job, facet);
+    return facet != LRCS_NONE && terms[facet].way == LRCSI_WALL_PIECES && is_on_side(job, facet);
 }
 
 /* Makes the sector of a facet. Returns 0 unless it is in the set, and the facet its first one: so
    the facets of a part name each sector of the set once. */
-static int sector_of_set(const pieces_job *job, const lrcsi_round_terms *terms, uint32_t facet,
+static int sector_of_set(const pieces_job *job, const lrcsi_wall_terms *terms, uint32_t facet,
                          lrcsi_round_sector *sector)
 {
     return is_in_set(job, terms, facet) && lrcsi_round_sector_make(&job->wall, facet, sector) &&
@@ -342,10 +342,12 @@ static int sector_of_set(const pieces_job *job, const lrcsi_round_terms *terms, 
 }
 
 /* May all facets of a sector be used, apart from what the integrals need? */
-static int sector_is_eligible(const pieces_job *job, const lrcsi_round_sector *sector)
+static int sector_is_eligible(const pieces_job *job, const lrcsi_wall_terms *terms,
+                              const lrcsi_round_sector *sector)
 {
     for (int i = 0; i < sector->facets; i++) {
-        if (!facet_is_eligible(job, sector->facet[i])) {
+        if (!facet_is_eligible(job, sector->facet[i]) ||
+            terms[sector->facet[i]].way == LRCSI_WALL_PATCH) {
             return 0;
         }
     }
@@ -425,7 +427,7 @@ static double margin_largest(const pieces_job *job, const lrcsi_round_side *side
 /* Adds the margins at the border of the set to a facet of a sector: one of which something is
    visible, because the sum leaves out hidden ones. If there is none, margins are errors. */
 static void sector_add_margins(const pieces_job *job, const lrcsi_occlusion *o,
-                               const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
+                               const lrcsi_round_sector *sector, lrcsi_wall_terms *terms)
 {
     const double reach = job->view->prepared->proximity.reach[job->wall.part];
     const uint32_t to =
@@ -466,14 +468,14 @@ static int sector_has_margins(const pieces_job *job, const lrcsi_round_sector *s
 /* Integrates over the pieces of a sector that is eligible and has margins. It joins the set if all
    integrals are known. */
 static void sector_integrate(const pieces_job *job, lrcsi_occlusion *o,
-                             const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
+                             const lrcsi_round_sector *sector, lrcsi_wall_terms *terms)
 {
     int known = 1;
     for (int i = 0; i < sector->facets && known; i++) {
         known = facet_integrate(job, o, sector->facet[i], &terms[sector->facet[i]]);
     }
     for (int i = 0; i < sector->facets; i++) {
-        terms[sector->facet[i]].known = known;
+        terms[sector->facet[i]].way = known ? LRCSI_WALL_PIECES : LRCSI_WALL_FACET;
     }
 }
 
@@ -498,7 +500,7 @@ static double unknown_margin(const pieces_job *job, const lrcsi_occlusion *o,
 /* By how much the set's errors from margins fall if a sector joins it: by those of the sides to
    sectors of the set, less those of its other sides. */
 static double joining_gain(const pieces_job *job, const lrcsi_occlusion *o,
-                           const lrcsi_round_sector *sector, const lrcsi_round_terms *terms)
+                           const lrcsi_round_sector *sector, const lrcsi_wall_terms *terms)
 {
     double gain = 0;
     for (int i = 0; i < sector->sides; i++) {
@@ -512,19 +514,19 @@ static double joining_gain(const pieces_job *job, const lrcsi_occlusion *o,
 /* Integrates over the neighbours of a sector of the set across sides beside which it is not known
    what is visible, where that reduces the error. Returns 1 if any of them joined the set. */
 static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
-                                 const lrcsi_round_sector *sector, lrcsi_round_terms *terms)
+                                 const lrcsi_round_sector *sector, lrcsi_wall_terms *terms)
 {
     int any = 0;
     for (int i = 0; i < sector->sides; i++) {
         const uint32_t neighbour = sector->side[i].neighbour;
         lrcsi_round_sector next;
-        if (neighbour != LRCS_NONE && !terms[neighbour].known && is_on_side(job, neighbour) &&
-            unknown_margin(job, o, &sector->side[i]) > 0 &&
+        if (neighbour != LRCS_NONE && terms[neighbour].way == LRCSI_WALL_FACET &&
+            is_on_side(job, neighbour) && unknown_margin(job, o, &sector->side[i]) > 0 &&
             lrcsi_round_sector_make(&job->wall, neighbour, &next) &&
-            sector_is_eligible(job, &next) && sector_has_margins(job, &next) &&
+            sector_is_eligible(job, terms, &next) && sector_has_margins(job, &next) &&
             joining_gain(job, o, &next, terms) > 0) {
             sector_integrate(job, o, &next, terms);
-            any |= terms[neighbour].known;
+            any |= terms[neighbour].way == LRCSI_WALL_PIECES;
         }
     }
     return any;
@@ -537,7 +539,7 @@ static int sector_add_neighbours(const pieces_job *job, lrcsi_occlusion *o,
    4. adds the margins at the border of the set.
    The occlusion is made when it is first needed. Returns 0 if there is no memory for it. */
 static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
-                          lrcsi_round_terms *terms)
+                          lrcsi_wall_terms *terms)
 {
     const lrcs_part *part = job->wall.surface.part;
     const uint32_t end = part->first_facet + part->facet_count;
@@ -547,14 +549,14 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
         if (!facet_is_eligible(job, f) || !facet_is_uncertain(job, f) ||
             !lrcsi_round_sector_make(&job->wall, f, &sector) ||
             (f != sector.facet[0] && facet_is_uncertain(job, sector.facet[0])) || /* tried before */
-            !sector_is_eligible(job, &sector) || !sector_has_margins(job, &sector)) {
+            !sector_is_eligible(job, terms, &sector) || !sector_has_margins(job, &sector)) {
             continue;
         }
         if (!*o && lrcsi_occlude_make(job->classification, job->meter, work, o) != LRCS_OK) {
             return 0;
         }
         sector_integrate(job, *o, &sector, terms);
-        any |= terms[f].known;
+        any |= terms[f].way == LRCSI_WALL_PIECES;
     }
     int joined = any;
     for (int round = 0; round < JOIN_ROUNDS && joined; round++) { /* 2 */
@@ -568,7 +570,9 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
     if (any && job->wall.surface.side < 0 && /* 3 */
         !lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms)) {
         for (uint32_t f = part->first_facet; f < end; f++) {
-            terms[f].known &= job->view->facing[f] > 0;
+            if (is_in_set(job, terms, f)) {
+                terms[f].way = LRCSI_WALL_FACET;
+            }
         }
     }
     for (uint32_t f = part->first_facet; f < end && any; f++) { /* 4 */
@@ -583,7 +587,7 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                              int derivatives, lrcsi_meter *meter, lrcs_work *work,
-                             lrcsi_round_terms *terms)
+                             lrcsi_wall_terms *terms)
 {
     const lrcsi_view *view = classification->view;
     const lrcs_scene *scene = view->prepared->scene;
@@ -597,9 +601,6 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
     int has_memory = 1;
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        terms[f].known = 0;
-    }
     for (uint32_t i = 0; i < scene->part_count && plan->patches; i++) {
         if (!lrcsi_shape_is_round(scene->part[i].kind) || !scene->part[i].rigid) {
             continue;
@@ -614,6 +615,8 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
     }
     work->used = mark;
     for (uint32_t f = 0; f < scene->facet_count && meter->spent; f++) {
-        terms[f].known = 0;
+        if (terms[f].way == LRCSI_WALL_PIECES) {
+            terms[f].way = LRCSI_WALL_FACET;
+        }
     }
 }

@@ -27,17 +27,18 @@
 #define LRCSI_ROUND_PIECES_H
 
 #include "integrate/plan/plan.h"
-#include "integrate/wall/round_terms.h"
+#include "integrate/wall/wall_terms.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity/masked_band.h"
 
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
    whose hidden facets are masked; derivatives: 1 if the integrals are to include what derivatives
-   need. Returned: terms[facet_count]. Without enough memory, or if steps run out, no sector is
-   found. */
+   need; terms[facet_count] of the sectors that are integrated over their patches
+   (integrate/wall/open_sectors.h): these are left out. Returned: the terms of the others. Without
+   enough memory, or if steps run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                              int derivatives, lrcsi_meter *meter, lrcs_work *work,
-                             lrcsi_round_terms *terms);
+                             lrcsi_wall_terms *terms);
 
 #endif

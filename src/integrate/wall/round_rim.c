@@ -126,7 +126,7 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
 }
 
 /* Enters a facet under the sides that may lie above it. */
-static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32_t facet)
+static void rim_enter(const rim_job *job, const lrcsi_wall_terms *terms, uint32_t facet)
 {
     const lrcsi_part_set others = job->band->parts[facet] & ~lrcsi_part_set_of(job->wall->part);
     const uint32_t around = job->part->divisions.around;
@@ -138,8 +138,8 @@ static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32
         const uint32_t last = (uint32_t)floor((arc[k].to + 4 * LRCS_PI) / width);
         for (uint32_t i = first; i <= last && i - first < around; i++) {
             rim_side *side = &job->side[i % around];
-            side->is_certain &= terms[facet].known && others == 0;
-            if (terms[facet].known) {
+            side->is_certain &= terms[facet].way == LRCSI_WALL_PIECES && others == 0;
+            if (terms[facet].way == LRCSI_WALL_PIECES) {
                 side->facet = side->is_summed ? side->facet : facet;
                 side->is_summed |= job->visible[facet].high > 0;
                 side->is_visible |= job->visible[facet].low > 0;
@@ -151,7 +151,7 @@ static void rim_enter(const rim_job *job, const lrcsi_round_terms *terms, uint32
 
 /* Adds the margin of a side of the rim to a facet under it or, if that is uncertain, a bound on it
    to the facet's error. */
-static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round_terms *terms)
+static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_wall_terms *terms)
 {
     const lrcsi_view *view = job->wall->view;
     const lrcsi_round_side *at = &side->at;
@@ -161,7 +161,7 @@ static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_round
         !lrcsi_view_may_face(view, at->facet, job->part->bounds.patch.turn)) {
         return;
     }
-    lrcsi_round_terms *to = &terms[side->facet];
+    lrcsi_wall_terms *to = &terms[side->facet];
     if (lrcsi_round_margin_make(job->wall, at, lrcsi_round_whole_side, &margin) && !away &&
         side->is_certain && side->is_summed && side->is_visible) {
         lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
@@ -185,8 +185,7 @@ size_t lrcsi_round_rim_need(const lrcs_prepared *prepared)
    2. Which facets are under which sides.
    3. The margins of the sides. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
-                        const lrcsi_visible_area *visible, lrcs_work *work,
-                        lrcsi_round_terms *terms)
+                        const lrcsi_visible_area *visible, lrcs_work *work, lrcsi_wall_terms *terms)
 {
     const lrcs_prepared *p = inside->view->prepared;
     const lrcs_part *part = &p->scene->part[inside->part];

@@ -18,7 +18,7 @@
 #define LRCSI_ROUND_RIM_H
 
 #include "integrate/wall/round_sector.h"
-#include "integrate/wall/round_terms.h"
+#include "integrate/wall/wall_terms.h"
 #include "visibility/base/visible_area.h"
 #include "visibility/proximity/proximity_band.h"
 
@@ -30,6 +30,6 @@ size_t lrcsi_round_rim_need(const lrcs_prepared *prepared);
    wider than twice the part's reach; then no facet of the inside may be in a set. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
                         const lrcsi_visible_area *visible, lrcs_work *work,
-                        lrcsi_round_terms *terms);
+                        lrcsi_wall_terms *terms);
 
 #endif

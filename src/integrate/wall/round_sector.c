@@ -21,8 +21,8 @@
 #define MARGIN_TARGET        1e-6
 #define MARGIN_REMAINDER_MAX 0x1p-6
 /* The rules along a piece of a margin and across it. */
-#define MARGIN_RULE_ALONG  lrcsi_mean_rules[LRCSI_MEAN_RULES - 2]
-#define MARGIN_RULE_ACROSS lrcsi_mean_rules[1]
+#define MARGIN_RULE_ALONG  (LRCSI_MEAN_RULES - 2)
+#define MARGIN_RULE_ACROSS 1
 /* The least cosine of the incidence angle in the middle of a piece. */
 #define MIN_COSINE 0.0211
 
@@ -177,28 +177,23 @@ static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side 
 
 /* The remainder of the rules along and across a piece of a margin. */
 static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                               const margin_piece *piece, int along, int across)
+                               const margin_piece *piece)
 {
-    double error_along = HUGE_VAL; /* complex t, real s */
-    double error_across = HUGE_VAL;
+    double along[LRCSI_MEAN_RULES]; /* complex t, real s */
+    double across[LRCSI_MEAN_RULES];
     double width;
     double slope;
-    for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
-        double q = 1 / (lrcsi_round_ratios[i] * lrcsi_round_ratios[i]);
-        double m = margin_bound(wall, side, piece, lrcsi_round_ratios[i], 1, &width, &slope);
-        m *= (piece->length + slope) * width;
-        for (int k = 0; k < along; k++) {
-            m *= q;
-        }
-        error_along = lrcsi_min(error_along, 2 * m / ((2 * along + 1) * (1 - q)));
-        m = margin_bound(wall, side, piece, 1, 1 + lrcsi_round_ratios[i], &width, &slope);
-        m *= (piece->length + (1 + lrcsi_round_ratios[i]) * slope) * width;
-        for (int k = 0; k < across; k++) {
-            m *= q;
-        }
-        error_across = lrcsi_min(error_across, 2 * m / ((2 * across + 1) * (1 - q)));
+    for (int n = 0; n < LRCSI_MEAN_RULES; n++) {
+        along[n] = across[n] = HUGE_VAL;
     }
-    return (error_along + error_across) * LRCSI_OUTWARD_NANO;
+    for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
+        const double r = lrcsi_round_ratios[i];
+        double m = margin_bound(wall, side, piece, r, 1, &width, &slope);
+        lrcsi_mean_rule_bound(2 * m * (piece->length + slope) * width, r, along);
+        m = margin_bound(wall, side, piece, 1, 1 + r, &width, &slope);
+        lrcsi_mean_rule_bound(2 * m * (piece->length + (1 + r) * slope) * width, r, across);
+    }
+    return (along[MARGIN_RULE_ALONG] + across[MARGIN_RULE_ACROSS]) * LRCSI_OUTWARD_NANO;
 }
 
 /* Adds the integral over a piece of a margin. */
@@ -294,8 +289,7 @@ int lrcsi_round_margin_bounds(const lrcsi_round_wall *wall, const lrcsi_round_si
             double bound = margin_bound(wall, side, &piece, 1, 1, &width, &slope);
             double size = bound * (piece.length + slope) * LRCSI_OUTWARD_NANO;
             margin->largest += 2 * size * width;
-            sum->remainder += margin_remainder(wall, side, &piece, MARGIN_RULE_ALONG.points,
-                                               MARGIN_RULE_ACROSS.points);
+            sum->remainder += margin_remainder(wall, side, &piece);
             sum->rounding += size * position_err; /* of the positions of both borders */
         }
         const double most = n < MARGIN_PIECES_MAX ? MARGIN_TARGET : MARGIN_REMAINDER_MAX;
@@ -314,7 +308,8 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
     for (int i = 0; i < margin->pieces && known; i++) {
         margin_piece piece;
         (void)margin_piece_place(wall, side, range, i, margin->pieces, &piece); /* as above */
-        margin_add(wall, side, &piece, &MARGIN_RULE_ALONG, &MARGIN_RULE_ACROSS, &margin->sum);
+        margin_add(wall, side, &piece, &lrcsi_mean_rules[MARGIN_RULE_ALONG],
+                   &lrcsi_mean_rules[MARGIN_RULE_ACROSS], &margin->sum);
     }
     return known && isfinite(margin->sum.rounding + margin->sum.glint + margin->sum.diffuse);
 }

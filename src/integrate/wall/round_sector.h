@@ -7,7 +7,7 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/round_surface.h"
-#include "integrate/wall/round_terms.h"
+#include "integrate/wall/wall_terms.h"
 #include "mesh/shape/revolution.h"
 
 /* One side of the wall of a part, in a view. */
