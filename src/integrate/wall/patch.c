@@ -97,8 +97,7 @@ static double piece_add_all(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, d
                : HUGE_VAL;
 }
 
-/* The error of a mean over a piece that is nearly edge-on for which it is not halved any further.
-   */
+/* The error of a mean over a piece that is nearly edge-on for which it is not halved any further. */
 static double edge_on_small(const lrcsi_patch_frame *f, const lrcs_brdf *brdf)
 {
     const lrcs_brdf term = {brdf->B > 0 ? 0 : brdf->A, brdf->B, brdf->s, brdf->m};
@@ -122,11 +121,11 @@ static int edge_on_add(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, double
 }
 
 /* Adds the mean over a piece, times `fraction`, which may have been halved `level` times, and whose
-   normals differ by at most `shift`. Returns 0, and adds nothing, if it is to be halved again: 1.
-   where all of it faces away, or is in the shadow of the rim, F is 0; 2. where F is no larger than
-   its remainder should be, F is an error; 3. where it is far enough from edge-on, by rules, if
-   their remainder is small, or the piece is not
-      halved any further;
+   normals differ by at most `shift`. Returns 0, and adds nothing, if it is to be halved again:
+   1. where all of it faces away, or is in the shadow of the rim, F is 0;
+   2. where F is no larger than its remainder should be, F is an error;
+   3. where it is far enough from edge-on, by rules, if their remainder is small, or the piece is
+      not halved any further;
    4. elsewhere the mean is enclosed, if that is accurate enough;
    5. otherwise F is an error. */
 static int patch_piece_add(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, double shift,
