@@ -31,10 +31,14 @@
 #include "base/vec3.h"
 #include "optics/reflect.h"
 
-/* A change of c below this fraction of the other one is added to R. */
-#define SMALL_CHANGE 0x1p-8
-/* More than the relative rounding error of a mean: that of powers, at most 1e-14, grows by
-   cancellation, where l changes little: it is at least SMALL_CHANGE^2 of the largest power. */
+/* A change of c below this fraction of the other one, of R or of c is added to R. Then both, where
+   they are used, are above 2^-10 of c. */
+#define SMALL_CHANGE 0x1p-10
+/* Times p + 1, more than the rounding error of a mean, relative to the largest one, that of (l +
+   R)^p. Powers have relative errors of 4 u (p + 2), those of their rounded bases included, so that
+   the sum over the corners has one of 16 u (p + 2) times the largest power. With q = p + 2 this is
+   at most 2^24 / (q (q - 1)) times the sum where c > A + C, and 2^11 times that elsewhere: there 1
+   - (1 - y)^q - y^q >= y for y = 2 C / (c + A + C) <= 1/2, and y >= 2^-11. */
 #define MEAN_ERR 1e-8
 
 double lrcsi_patch_edge_on_bound(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, double shift)
@@ -128,19 +132,19 @@ lrcsi_edge_on_mean lrcsi_patch_edge_on_mean(const lrcsi_patch_frame *f, const lr
         least *= pow(f->nu + shift, 1 - p);
         most *= pow(f->nu - shift, 1 - p);
     }
-    if (change[1] <= SMALL_CHANGE * change[0]) {
-        r += change[1];
-        change[1] = 0;
-    }
-    if (change[0] <= SMALL_CHANGE * r) {
-        r += change[0];
-        change[0] = 0;
+    for (int k = 1; k >= 0; k--) {
+        const double scale = lrcsi_max(k == 1 ? change[0] : r, fabs(f->c));
+        if (change[k] <= SMALL_CHANGE * scale) {
+            r += change[k];
+            change[k] = 0;
+        }
     }
     const double low = least * brdf->B * power_mean(f->c - r, change, p);
     const double high = most * brdf->B * power_mean(f->c + r, change, p);
     const double middle = 0.5 * (low + high);
     const double log_w = middle > 0 ? -2 / p * log(middle / (brdf->B * most)) : 0;
-    return (lrcsi_edge_on_mean){
-        middle, (0.5 * (high - low) + MEAN_ERR * high + highest_glint) * LRCSI_OUTWARD_MICRO,
-        middle * lrcsi_max(0, log_w)};
+    return (lrcsi_edge_on_mean){middle,
+                                (0.5 * (high - low) + MEAN_ERR * (p + 1) * high + highest_glint) *
+                                    LRCSI_OUTWARD_MICRO,
+                                middle * lrcsi_max(0, log_w)};
 }
