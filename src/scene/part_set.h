@@ -14,4 +14,10 @@ static inline lrcsi_part_set lrcsi_part_set_of(uint32_t part)
     return (lrcsi_part_set)1 << (part < LRCSI_PART_SET_SINGLE ? part : LRCSI_PART_SET_SINGLE);
 }
 
+/* The set without a part. The last bit stays: it may be another part. */
+static inline lrcsi_part_set lrcsi_part_set_without(lrcsi_part_set set, uint32_t part)
+{
+    return part < LRCSI_PART_SET_SINGLE ? set & ~lrcsi_part_set_of(part) : set;
+}
+
 #endif

@@ -15,7 +15,7 @@
 static const lrcs_brdf glossy = {1, 0.25, 0.2, 0.5};
 
 typedef struct shadow_scene {
-    lrcs_recipe_part part[4];
+    lrcs_recipe_part part[72];
     lrcs_recipe_material material;
     uint32_t parts;
 } shadow_scene;
@@ -270,6 +270,28 @@ static void rims_of_open_walls_shade_them_exactly(void **state)
     }
 }
 
+/* Sets of parts share their last bit among all parts from the 64th on: one of these may hide the
+   inside of another. */
+static void one_of_many_parts_shades_the_inside_of_another(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.1, 0.05, -1};
+    lrcs_result results[2];
+    for (int many = 0; many < 2; many++) {
+        shadow_scene s = scene_of((lrcs_brdf){0, 0.25, 0.4, 0.2}, 1);
+        for (int i = 0; i < 65 && many; i++) {
+            add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1e-6, 1e-6}}, 10 + i, 40, 0);
+        }
+        add(&s, (lrcs_shape){.kind = LRCS_SHAPE_DOME, .parts = LRCS_SHAPE_WALL, .radius = 1}, 0, 0,
+            0);
+        add(&s, (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {0.6, 0.5, 0.1}}, 0.35, 0.1, -0.6);
+        results[many] = shadow_run(&s, 1000, d, LRCS_METHOD_EXACT);
+    }
+    check_abs(results[0].sigma_m2, results[1].sigma_m2,
+              results[0].bound_m2 + results[1].bound_m2 + 1e-9);
+    check_most(results[1].bound_m2, 1e-2 * results[1].sigma_m2);
+}
+
 static void tube_in_tube(void **state)
 {
     (void)state;
@@ -479,6 +501,7 @@ int main(void)
         cmocka_unit_test(a_nozzle_flush_on_a_box),
         cmocka_unit_test(the_inside_of_an_open_dish),
         cmocka_unit_test(rims_of_open_walls_shade_them_exactly),
+        cmocka_unit_test(one_of_many_parts_shades_the_inside_of_another),
         cmocka_unit_test(tube_in_tube),
         cmocka_unit_test(eclipsed_and_nested_spheres),
         cmocka_unit_test(a_tube_pierced_by_a_box),

@@ -36,7 +36,7 @@ static int is_alone(const open_job *job, uint32_t facet)
     const uint32_t part = p->scene->facet_part[facet];
     return !p->skip[facet] && lrcsi_patch_exists(p, facet) &&
            lrcsi_proximity_openings(p, part) > 0 &&
-           (job->band->whole->parts[facet] & ~lrcsi_part_set_of(part)) == 0;
+           lrcsi_part_set_without(job->band->whole->parts[facet], part) == 0;
 }
 
 /* May the laser see both sides of a facet's patch, or the shadow of the part's rim end on it? */

@@ -12,6 +12,7 @@
 #include "base/constant.h"
 #include "base/length.h"
 #include "base/outward.h"
+#include "base/range.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
 
@@ -96,20 +97,26 @@ static rim_height height_at(const lrcsi_rim_shadow *s, double cosine)
     if (!(s->a > 0) || !(c > 0)) {
         return (rim_height){s->a > 0 ? 0 : HUGE_VAL, 0};
     }
-    return (rim_height){y, 2 * s->r0 * (2 * e) / w + fabs(y) * (4 * e * size / w)};
+    if (!(16 * e * size < w)) { /* W is not known */
+        return (rim_height){y, HUGE_VAL};
+    }
+    return (rim_height){y, 2 * (2 * s->r0 * (2 * e) / w + fabs(y) * (4 * e * size / w))};
 }
 
 lrcsi_rim_fraction lrcsi_rim_shadow_fraction(const lrcsi_rim_shadow *s, double phi)
 {
     const rim_height y = height_at(s, cos(phi - s->azimuth));
     const double h = s->height;
+    if (s->lit && y.err == HUGE_VAL) {
+        return (lrcsi_rim_fraction){1, 1};
+    }
     if (!s->lit || !(y.value < h)) {
         return (lrcsi_rim_fraction){s->lit, 0};
     }
     const double sum = s->r0 + s->r1;
     const double sigma = (s->r1 - s->r0) / h;
     return (lrcsi_rim_fraction){y.value * (2 * s->r0 + sigma * y.value) / (h * sum),
-                                2 * y.err / h + 8 * LRCSI_U};
+                                lrcsi_min(1, 2 * y.err / h + 8 * LRCSI_U)};
 }
 
 double lrcsi_rim_shadow_fraction_bound(const lrcsi_rim_shadow *s, double phi, double exp_b)

@@ -128,7 +128,7 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
 /* Enters a facet under the sides that may lie above it. */
 static void rim_enter(const rim_job *job, const lrcsi_wall_terms *terms, uint32_t facet)
 {
-    const lrcsi_part_set others = job->band->parts[facet] & ~lrcsi_part_set_of(job->wall->part);
+    const lrcsi_part_set others = lrcsi_part_set_without(job->band->parts[facet], job->wall->part);
     const uint32_t around = job->part->divisions.around;
     const double width = 2 * job->wall->body.half;
     rim_arc arc[2];

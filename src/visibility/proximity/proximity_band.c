@@ -170,11 +170,12 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     lrcsi_wall_margin *margin = &band->margin[facet];
-    const lrcsi_part_set own = lrcsi_part_set_of(job->view->prepared->scene->facet_part[facet]);
+    const uint32_t own = job->view->prepared->scene->facet_part[facet];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t part = job->bands.events.part[job->listed[i]];
         lrcsi_event_band fractions;
-        if (band->gain[facet] >= 1 && band->loss[facet] >= 1 && band->parts[facet] != own) {
+        if (band->gain[facet] >= 1 && band->loss[facet] >= 1 &&
+            lrcsi_part_set_without(band->parts[facet], own) != 0) {
             /* the other edges are not considered; but those of its own part alone tell that no
                other part's matter (integrate/wall/open_sectors.h) */
             band->parts[facet] = margin->causes = LRCSI_PART_SET_ALL;
