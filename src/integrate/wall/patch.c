@@ -97,7 +97,7 @@ static double piece_add_all(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, d
                : HUGE_VAL;
 }
 
-/* The error of a mean over a piece that is nearly edge-on for which it is not halved any further. */
+/* The error of the mean over a nearly edge-on piece at which it is not halved any further. */
 static double edge_on_small(const lrcsi_patch_frame *f, const lrcs_brdf *brdf)
 {
     const lrcs_brdf term = {brdf->B > 0 ? 0 : brdf->A, brdf->B, brdf->s, brdf->m};
