@@ -3,7 +3,6 @@
    integrate/wall/patch.h. */
 #include "integrate/wall/open_sectors.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/disjoint.h"
