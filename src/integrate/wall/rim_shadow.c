@@ -100,7 +100,7 @@ static rim_height height_at(const lrcsi_rim_shadow *s, double cosine)
     if (!(16 * e * size < w)) { /* W is not known */
         return (rim_height){y, HUGE_VAL};
     }
-    return (rim_height){y, 2 * (2 * s->r0 * (2 * e) / w + fabs(y) * (4 * e * size / w))};
+    return (rim_height){y, 2 * s->r0 * (2 * e) / w + fabs(y) * (4 * e * size / w)};
 }
 
 lrcsi_rim_fraction lrcsi_rim_shadow_fraction(const lrcsi_rim_shadow *s, double phi)
