@@ -5,7 +5,6 @@
 
 #include <string.h>
 
-#include "base/disjoint.h"
 #include "base/work.h"
 #include "integrate/wall/patch.h"
 #include "scene/proximity.h"
@@ -38,12 +37,13 @@ static int is_alone(const open_job *job, uint32_t facet)
            lrcsi_part_set_without(job->band->whole->parts[facet], part) == 0;
 }
 
-/* May the laser see both sides of a facet's patch, or the shadow of the part's rim end on it? */
+/* Of a facet that is alone: may the laser see both sides of its patch, or the shadow of the part's
+   rim end on it? */
 static int is_candidate(const open_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const double turn = lrcsi_patch_part(view->prepared, facet)->bounds.patch.turn;
-    return job->alone[facet] && lrcsi_view_reflects(view, facet) &&
+    return lrcsi_view_reflects(view, facet) &&
            ((view->facing[facet] < 0 && job->band->whole->parts[facet] != 0) ||
             lrcsi_view_may_show_both(view, facet, turn));
 }
@@ -130,23 +130,8 @@ static int find_alone(const open_job *job)
 /* Finds their groups, and those of which something is visible. */
 static void find_groups(const open_job *job)
 {
-    const lrcs_prepared *p = job->view->prepared;
-    const uint32_t facets = p->scene->facet_count;
-    for (uint32_t f = 0; f < facets; f++) {
-        job->group[f] = f;
-    }
-    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
-        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
-            const uint32_t a = use[i - 1].facet;
-            const uint32_t b = use[i].facet;
-            if (job->alone[a] && job->alone[b] &&
-                p->scene->facet_part[a] == p->scene->facet_part[b]) {
-                lrcsi_disjoint_union(job->group, a, b);
-            }
-        }
-    }
-    lrcsi_disjoint_flatten(job->group, facets);
+    const uint32_t facets = job->view->prepared->scene->facet_count;
+    lrcsi_proximity_band_join(job->band->whole, job->alone, 0, job->group);
     memset(job->seen, 0, facets);
     for (uint32_t f = 0; f < facets; f++) {
         job->seen[job->group[f]] |= job->alone[f] && job->visible[f].low > 0;
@@ -176,6 +161,9 @@ void lrcsi_open_sectors_make(const lrcsi_view *view, const lrcsi_plan *plan,
         for (uint32_t i = 0; i < scene->part_count; i++) {
             const lrcs_part *part = &scene->part[i];
             const uint32_t end = part->first_facet + part->facet_count;
+            if (lrcsi_proximity_openings(view->prepared, i) == 0) {
+                continue;
+            }
             const lrcsi_rim_shadow shadow = lrcsi_rim_shadow_make(part, view->unit);
             for (uint32_t f = part->first_facet; f < end; f++) {
                 if (job.alone[f] && terms[f].way == LRCSI_WALL_FACET && is_candidate(&job, f)) {

@@ -15,13 +15,12 @@
    visible fraction is a weight, and the patch is divided at the azimuths where it reaches 1. On a
    round wall pieces that the end of the shadow crosses are divided along it
    (integrate/wall/patch_cut.c).
-   Called: lrcsi_tessellate_patch, lrcsi_reflect. */
+   Called: lrcsi_tessellate_patch. */
 #include "integrate/wall/patch.h"
 
 #include <math.h>
 
 #include "base/elementary.h"
-#include "base/outward.h"
 #include "base/range.h"
 #include "integrate/wall/patch_cut.h"
 #include "integrate/wall/patch_edge_on.h"
@@ -74,15 +73,6 @@ static lrcsi_patch_frame frame_piece(const lrcsi_patch_frame *whole, int level, 
 static int piece_is_slanting(const lrcsi_patch_frame *f, double shift)
 {
     return shift < 0.4 * f->c;
-}
-
-/* An upper bound of F, with the weights, on a piece that is not nearly edge-on; infinite if none is
-   known. */
-static double piece_bound(const lrcsi_patch_frame *f, const lrcs_brdf *brdf)
-{
-    const lrcsi_patch_bound most =
-        lrcsi_patch_bound_make(f, brdf, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
-    return most.glint + most.diffuse;
 }
 
 /* Adds the mean over a piece by rules, times `fraction`. Returns the remainder, infinite if
@@ -163,7 +153,7 @@ static int patch_piece_add(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, do
         return 1;
     }
     if (is_smallest) { /* 5 */
-        const double largest = bound < HUGE_VAL ? bound : piece_bound(f, brdf);
+        const double largest = bound < HUGE_VAL ? bound : lrcsi_patch_largest(f, brdf);
         patch->remainder += fraction * largest;
     }
     return is_smallest;
@@ -231,15 +221,16 @@ static int patch_add_parts(const lrcsi_patch_frame *whole, const lrcs_brdf *brdf
    0 if its errors are not finite. *limit: the remainder up to which the mean is worth using, in
    place of F at the normal of the facet. */
 static int patch_integrate(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
-                           const lrcsi_patches *patches, const lrcsi_rim_shadow *shadow,
-                           lrcsi_patch *patch, double *limit)
+                           const lrcsi_rim_shadow *shadow, int derivatives, lrcsi_patch *patch,
+                           double *limit)
 {
     const lrcs_brdf *brdf = &patch->brdf;
     lrcsi_patch_frame f;
-    if (!lrcsi_patch_frame_make(view, facet, patches, &f, patch)) {
+    if (!lrcsi_patch_frame_make(view, facet, &f, patch)) {
         return 0;
     }
     f.shadow = shadow;
+    f.derivatives = derivatives;
     f.tolerance = plan->tolerance;
     f.target = lrcsi_min(RULE_HIGH, lrcsi_max(RULE_LOW, RULE_TOLERANCE * plan->tolerance));
     const int all_slants = patch_add_parts(&f, brdf, patch);
@@ -287,8 +278,9 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
         last->at.sector != made.at.sector || last->at.mirrored != made.at.mirrored ||
         !same_brdf(&last->brdf, brdf)) {
         double limit;
-        made.known = patch_integrate(view, plan, facet, patches, NULL, &made, &limit) &&
-                     made.remainder <= limit;
+        made.known =
+            patch_integrate(view, plan, facet, NULL, patches->derivatives, &made, &limit) &&
+            made.remainder <= limit;
         *last = made;
     }
     return last->known ? last : NULL;
@@ -298,8 +290,7 @@ int lrcsi_patch_make_side(const lrcsi_view *view, const lrcsi_plan *plan, const 
                           uint32_t facet, const lrcsi_rim_shadow *shadow, int derivatives,
                           lrcsi_patch *patch)
 {
-    const lrcsi_patches patches = {.derivatives = derivatives};
     double limit;
     return patch_find(view, plan, brdf, facet, shadow ? -1 : 1, patch) &&
-           patch_integrate(view, plan, facet, &patches, shadow, patch, &limit);
+           patch_integrate(view, plan, facet, shadow, derivatives, patch, &limit);
 }

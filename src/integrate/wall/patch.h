@@ -7,6 +7,13 @@
 #include "integrate/plan/plan.h"
 #include "integrate/wall/patch_frame.h"
 
+/* What evaluates patches, one after the other. The last one is kept only to save time, because the
+   other facet of its sector represents it as well: no result depends on it. */
+typedef struct lrcsi_patches {
+    int derivatives;  /* given: 1 if glint_u and diffuse_log are needed, for derivatives */
+    lrcsi_patch last; /* side = 0: none yet */
+} lrcsi_patches;
+
 /* The patch of a facet that is not skipped, valid until the next call. Returned: NULL if the plan
    asks for facets, the facet has no patch, or the remainder would be too large. */
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,

@@ -30,9 +30,9 @@
 
 #include <math.h>
 
-#include "base/elementary.h"
 #include "base/outward.h"
 #include "base/range.h"
+#include "base/sort.h"
 
 /* A root is found by at most so many steps of Newton's method or bisections. */
 #define ROOT_STEPS 80
@@ -215,16 +215,10 @@ double lrcsi_patch_cut_add(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, do
         }
         strips += count;
     }
-    if (strips == 3 && limit[1] > limit[2]) {
-        const double first = limit[2];
-        limit[2] = limit[1];
-        limit[1] = first;
-    }
+    lrcsi_sort_ascending(limit + 1, (uint32_t)strips - 1);
     limit[strips] = whole.middle[u] + whole.half[u];
-    const lrcsi_patch_bound most =
-        lrcsi_patch_bound_make(f, brdf, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
     double remainder =
-        2 * f->shadow->err / (least[v] * whole.half[v]) * (most.glint + most.diffuse);
+        2 * f->shadow->err / (least[v] * whole.half[v]) * lrcsi_patch_largest(f, brdf);
     for (int i = 0; i < strips; i++) {
         rectangle strip = whole;
         strip.middle[u] = 0.5 * (limit[i] + limit[i + 1]);

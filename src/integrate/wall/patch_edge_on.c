@@ -28,7 +28,6 @@
 
 #include "base/outward.h"
 #include "base/range.h"
-#include "base/vec3.h"
 #include "optics/reflect.h"
 
 /* A change of c below this fraction of the other one, of R or of c is added to R. Then both, where
@@ -98,10 +97,8 @@ lrcsi_edge_on_mean lrcsi_patch_edge_on_mean(const lrcsi_patch_frame *f, const lr
     const double highest_glint = brdf->A > 0 ? lrcsi_patch_edge_on_bound(f, &glint, shift) : 0;
     const double x = cos(f->phi);
     const double y = sin(f->phi);
-    double g[3] = {f->g[0], f->g[1], f->g[2]};
-    for (int k = 0; k < 3 && f->axis; k++) {
-        g[k] = lrcsi_vec3_dot(f->axis[k], f->g);
-    }
+    double g[3];
+    lrcsi_patch_direction(f, g);
     const double across = g[0] * x + g[1] * y;
     const double along = fabs(f->cosine * across - g[2] * f->sine) * f->step;
     const double around = f->sine * fabs(g[1] * x - g[0] * y) * f->half;

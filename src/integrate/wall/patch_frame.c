@@ -89,18 +89,23 @@ static void frame_middle(lrcsi_patch_frame *f)
     f->u = patch_tan2(f, f->sine, f->cosine, azimuth, &f->c, &f->p, &f->nu);
 }
 
+void lrcsi_patch_direction(const lrcsi_patch_frame *f, double g[3])
+{
+    for (int k = 0; k < 3; k++) {
+        g[k] = f->axis ? lrcsi_vec3_dot(f->axis[k], f->g) : f->g[k];
+    }
+}
+
 /* The cosine of incidence at the normal N that is closest to the laser, of a wall whose normals are
    at one angle from the axis, or at all angles up to that at its rim. With distortion it is close
    to the largest one. */
 static double largest_cosine(const lrcsi_patch_frame *f, const lrcsi_revolution *body)
 {
-    double g[3] = {f->g[0], f->g[1], f->g[2]};
+    double g[3];
     double p;
     double c;
     double nu;
-    for (int k = 0; k < 3 && f->axis; k++) { /* the transpose of H */
-        g[k] = lrcsi_vec3_dot(f->axis[k], f->g);
-    }
+    lrcsi_patch_direction(f, g);
     const double azimuth = atan2(g[1], g[0]);
     const double turn[2] = {sin(azimuth), cos(azimuth)};
     double angle = atan2(hypot(g[0], g[1]), g[2]);
@@ -113,8 +118,8 @@ static double largest_cosine(const lrcsi_patch_frame *f, const lrcsi_revolution 
     return c / nu;
 }
 
-int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patches *patches,
-                           lrcsi_patch_frame *f, lrcsi_patch *patch)
+int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, lrcsi_patch_frame *f,
+                           lrcsi_patch *patch)
 {
     const lrcs_prepared *prepared = view->prepared;
     const lrcs_part *part = &prepared->scene->part[patch->part];
@@ -126,6 +131,7 @@ int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_p
         uint32_t other = lrcsi_patch_partner(prepared, facet);
         facets += prepared->skip[other] ? 0 : 0.5 * prepared->normal[other].length;
     }
+    *f = (lrcsi_patch_frame){.shadow = NULL};
     f->axis = part->rigid ? NULL : (const double(*)[3])part->normal_axis;
     for (int k = 0; k < 3; k++) {
         const double *axis = part->axis[k];
@@ -154,8 +160,6 @@ int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_p
     f->most = largest_cosine(f, &body);
     patch->facet_area = facets;
     frame_middle(f);
-    f->derivatives = patches->derivatives;
-    f->shadow = NULL;
     patch->area_err = 2 * (lrcsi_revolution_rounding(&body, at->row) + part->bounds.normal_err);
     return isfinite(f->area) && (!f->fourth || body.step > 0);
 }
@@ -224,6 +228,13 @@ lrcsi_patch_bound lrcsi_patch_bound_make(const lrcsi_patch_frame *f, const lrcs_
         bound.diffuse = weight * (brdf->B * x * x * (x > 1 ? lrcsi_exp(brdf->m * (x - 1)) : 1));
     }
     return bound;
+}
+
+double lrcsi_patch_largest(const lrcsi_patch_frame *f, const lrcs_brdf *brdf)
+{
+    const lrcsi_patch_bound most =
+        lrcsi_patch_bound_make(f, brdf, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half));
+    return most.glint + most.diffuse;
 }
 
 double lrcsi_patch_integrand(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, double u)

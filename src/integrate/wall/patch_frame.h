@@ -43,7 +43,7 @@
    With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since the equation
    c^2 + (g x n) . (g x n) = n . n holds for complex n as well, w = (n . n) / c^2; areas have the
    weight (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between two bounds:
-
+       nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
 
    Rounding. N and g together have an error of at most e = LRCSI_PATCH_NORMAL_ERR: azimuths and
    angles below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few
@@ -78,13 +78,6 @@ typedef struct lrcsi_patch {
     int known; /* 0: there is a patch, but its mean is not known */
 } lrcsi_patch;
 
-/* What evaluates patches, one after the other. The last one is kept only to save time, because the
-   other facet of its sector represents it as well: no result depends on it. */
-typedef struct lrcsi_patches {
-    int derivatives;  /* given: 1 if glint_u and diffuse_log are needed, for derivatives */
-    lrcsi_patch last; /* side = 0: none yet */
-} lrcsi_patches;
-
 /* The part of a facet. */
 const lrcs_part *lrcsi_patch_part(const lrcs_prepared *prepared, uint32_t facet);
 
@@ -101,8 +94,8 @@ uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
 /* What an error e of a unit normal, at most 2^-10 c, changes in both terms of f_r cos^2, relative,
-   up to the factor exp of it (see above). Given: u = tan^2, the cosine c and the sine
-   p of the incidence angle. */
+   up to the factor exp of it (see above). Given: u = tan^2, the cosine c and the sine p of the
+   incidence angle. */
 typedef struct lrcsi_term_errors {
     double glint, diffuse;
 } lrcsi_term_errors;
@@ -127,18 +120,23 @@ typedef struct lrcsi_patch_frame {
     double area;        /* of the patch, for a weight of 1, divided by that of its facets */
     double tolerance;   /* of the plan */
     double target;      /* the remainder that rules should have, relative to F */
-    int derivatives;    /* lrcsi_patches */
+    int derivatives;    /* 1: means include what derivatives need */
     const lrcsi_rim_shadow *shadow; /* on a straight wall F includes the visible fraction; NULL:
                                        none */
 } lrcsi_patch_frame;
 
-/* The frame of patch->at. Returns 0 if rounding left its facets without area. */
-int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patches *patches,
-                           lrcsi_patch_frame *f, lrcsi_patch *patch);
+/* The frame of patch->at, except for tolerance, target, derivatives and shadow, which are 0.
+   Returns 0 if rounding left its facets without area. */
+int lrcsi_patch_frame_make(const lrcsi_view *view, uint32_t facet, lrcsi_patch_frame *f,
+                           lrcsi_patch *patch);
 
 /* The part of a patch with the given middle and half widths. */
 lrcsi_patch_frame lrcsi_patch_frame_part(const lrcsi_patch_frame *whole, double alpha, double step,
                                          double phi, double half);
+
+/* The vector whose product with N is g . n: g or, with distortion, its image under the transpose of
+   H. */
+void lrcsi_patch_direction(const lrcsi_patch_frame *f, double g[3]);
 
 /* kappa, from a and the exponentials of a and b; the error of the normal is added. */
 double lrcsi_patch_normal_shift(const lrcsi_patch_frame *f, double a, double exp_a, double exp_b);
@@ -150,6 +148,9 @@ typedef struct lrcsi_patch_bound {
 } lrcsi_patch_bound;
 lrcsi_patch_bound lrcsi_patch_bound_make(const lrcsi_patch_frame *f, const lrcs_brdf *brdf,
                                          double a, double exp_a, double exp_b);
+
+/* An upper bound of F, with the weights, over the frame itself; infinite if that may be edge-on. */
+double lrcsi_patch_largest(const lrcsi_patch_frame *f, const lrcs_brdf *brdf);
 
 /* F at tan^2 = u, with the weights in the middle. */
 double lrcsi_patch_integrand(const lrcsi_patch_frame *f, const lrcs_brdf *brdf, double u);

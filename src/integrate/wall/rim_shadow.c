@@ -13,6 +13,7 @@
 #include "base/length.h"
 #include "base/outward.h"
 #include "base/range.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
 
@@ -159,10 +160,6 @@ int lrcsi_rim_shadow_kinks(const lrcsi_rim_shadow *s, double from, double to, do
             kink[count++] = phi;
         }
     }
-    if (count == 2 && kink[0] > kink[1]) {
-        const double first = kink[1];
-        kink[1] = kink[0];
-        kink[0] = first;
-    }
+    lrcsi_sort_ascending(kink, (uint32_t)count);
     return count;
 }

@@ -97,7 +97,7 @@ void lrcsi_masked_band_find(lrcsi_masked_band *band, const lrcsi_visible_area *v
     lrcsi_grid facets;
     if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
         const lrcsi_grid_readers readers = {.undecided = candidate};
-        lrcsi_proximity_band_join(band->whole, candidate, group);
+        lrcsi_proximity_band_join(band->whole, candidate, 1, group);
         if (lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, work, &facets) ==
             LRCS_OK) {
             find_hidden_groups(band, candidate, group, &facets, meter);

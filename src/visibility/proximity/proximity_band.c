@@ -453,7 +453,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
 }
 
 void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                               uint32_t *group)
+                               int alike, uint32_t *group)
 {
     const lrcs_prepared *p = band->classification->view->prepared;
     const uint32_t *part = p->scene->facet_part;
@@ -465,10 +465,10 @@ void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned 
         for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
             uint32_t a = use[i - 1].facet;
             uint32_t b = use[i].facet;
-            int joined = candidate
-                             ? candidate[a] && candidate[b] && band->parts[a] == band->parts[b]
-                             : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
-                                   band->mismatch[b] == 0;
+            int joined = candidate ? candidate[a] && candidate[b] &&
+                                         (!alike || band->parts[a] == band->parts[b])
+                                   : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
+                                         band->mismatch[b] == 0;
             if (part[a] == part[b] && joined) {
                 lrcsi_disjoint_union(group, a, b);
             }
@@ -506,7 +506,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
         return status;
     }
     work->used = kept;
-    lrcsi_proximity_band_join(&m, NULL, m.region);
+    lrcsi_proximity_band_join(&m, NULL, 0, m.region);
     *band = m;
     return LRCS_OK;
 }

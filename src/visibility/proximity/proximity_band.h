@@ -51,9 +51,9 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
                               lrcs_work *work, lrcsi_proximity_band *band);
 
 /* Joins facets of one part across edges into groups, each named by its first facet: facets of
-   curved parts without bands or, if `candidate` is given, facets that it marks and that meet bands
-   of the same parts. */
+   curved parts without bands or, if `candidate` is given, facets that it marks and, if `alike` is
+   1, that meet bands of the same parts. */
 void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                               uint32_t *group);
+                               int alike, uint32_t *group);
 
 #endif
