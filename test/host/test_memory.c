@@ -438,7 +438,7 @@ static int file_is_written(outcome *got)
 static int pose_at(void *context, uint64_t index, lrcs_pose *at)
 {
     (void)context;
-    return lrcs_pose_from_azel(2.0 * (double)index, 20.0, at);
+    return lrcs_pose_from_azel(5.0 + 2.0 * (double)index, 20.0, at);
 }
 
 static int result_take(void *context, uint64_t index, const lrcs_pose *at, const lrcs_result *one,
@@ -483,7 +483,7 @@ static int sweep_is_run(outcome *got)
                              .glint_count = glints,
                              .context = got};
     uint64_t done = 0;
-    run.tolerance = 5e-4;
+    run.tolerance = 2e-4;
     finer = 0;
     parts_read(&scene);
     int status = lrcs_host_sweep_run(&scene, &run, &poses, &done, &error);
@@ -499,7 +499,7 @@ static int scene_is_refined(outcome *got)
     lrcs_build_options build = lrcs_build_options_default();
     lrcs_host_scene scene;
     lrcs_pose at;
-    run.tolerance = 5e-4;
+    run.tolerance = 2e-4;
     finer = 0;
     parts_read(&scene);
     assert_int_equal(pose_at(NULL, 0, &at), LRCS_OK);

@@ -196,12 +196,13 @@ static inline void scene_terrain(uint64_t *state, uint32_t n, uint32_t triangles
 /* What the definition says of an edge. */
 typedef struct edge_count {
     uint32_t count, left, right, forward;
+    uint32_t fronts; /* how many face the laser: one to the left of its side, as it traverses it */
 } edge_count;
 
 /* The facets with both vertices: those that can hide something or, of a part, all. */
 static inline edge_count count_facets(uint32_t low, uint32_t high, uint32_t part)
 {
-    edge_count n = {0, 0, 0, 0};
+    edge_count n = {0, 0, 0, 0, 0};
     int64_t a[3];
     int64_t b[3];
     vertex_at(low, a);
@@ -222,6 +223,7 @@ static inline edge_count count_facets(uint32_t low, uint32_t high, uint32_t part
                 n.left += side > 0;
                 n.right += side < 0;
                 n.forward += from == low;
+                n.fronts += (from == low ? side : -side) > 0;
             }
         }
     }

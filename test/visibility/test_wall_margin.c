@@ -87,8 +87,9 @@ static wall_sums sum_of_wall(void)
     return sum;
 }
 
-/* The area between the polygon that the ball's event edges form and the circle of the true ball. */
-static double polygon_beyond_circle(double radius)
+/* The area between the polygon that the ball's event edges form and the outline of the true ball,
+   which encloses this area, m^2. */
+static double polygon_beyond_outline(double area)
 {
     double twice = 0;
     const double zero[3] = {0, 0, 0};
@@ -103,8 +104,12 @@ static double polygon_beyond_circle(double radius)
                                              (a[1] - centre[1]) * (b[0] - centre[0]));
         }
     }
-    const double scaled = ldexp(radius, -view.prepared->exponent);
-    return 0.5 * twice - LRCS_PI * scaled * scaled;
+    return 0.5 * twice - ldexp(area, -2 * view.prepared->exponent);
+}
+
+static double polygon_beyond_circle(double radius)
+{
+    return polygon_beyond_outline(LRCS_PI * radius * radius);
 }
 
 static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
@@ -127,6 +132,26 @@ static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
         check_most(fabs(sum.area), sum.size);
         check_most(sum.loose, 0.75 * (sum.all_gain + sum.all_loss));
         check_most(other, 0.1 * (sum.all_gain + sum.all_loss));
+    }
+}
+
+/* A tank with its flat base, which stands before the middle of a wall or on the same plane, seen
+   exactly edge-on to the base: its outline is a half circle, and all of it has margins but for
+   edges at its corners. */
+static void margins_of_a_tank_seen_edge_on_to_its_base(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 0.1, 0};
+    const lrcs_shape tank = {.kind = LRCS_SHAPE_DOME, .radius = 0.5};
+    for (int i = 0; i < 4; i++) {
+        lrcs_recipe_part part[2] = {part_at(cylinder, 0, 0, 0), part_at(tank, 2, 0.2, i % 2)};
+        find_margins(part, 2, i < 2 ? 1e-3 : 1e-4, d);
+        const wall_sums sum = sum_of_wall();
+        const double want = polygon_beyond_outline(0.5 * LRCS_PI * 0.25);
+        const double other = sum.gain + sum.loss;
+        assert_true(sum.facets > 4);
+        check_abs(sum.area, want, sum.loose + other);
+        check_most(other, 0.2 * (sum.all_gain + sum.all_loss));
     }
 }
 
@@ -438,6 +463,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
+        cmocka_unit_test(margins_of_a_tank_seen_edge_on_to_its_base),
         cmocka_unit_test(margins_on_plane_faces_have_their_sign),
         cmocka_unit_test(margins_across_an_edge_of_a_box_have_bands),
         cmocka_unit_test(margins_at_a_border_or_a_contact_have_bands),

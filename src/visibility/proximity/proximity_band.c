@@ -27,7 +27,8 @@
      upper, lower side of B: the points where lines along d leave B, and where they enter it; in
               projection their heights are a concave and a convex function
      event edge of Q: an edge, unless exactly two facets of Q meet in it, continue each other and
-              face the same way; contours and the rims of openings are event edges
+              face the same way; contours and the rims of openings are event edges. Edges without a
+              facet that counts (1.a) are event edges only if they are rims
    In 1, B, W, S and V are those of Q. Two conditions on y:
      (1) A facet of Q is within r of y in space; if Q is closed, a facet that faces the laser.
      (2) An event edge of Q is within r of y in projection, and not 2 r behind y.
@@ -35,9 +36,12 @@
    1. Visibility. Unless (1) or (2) holds, Q hides x if and only if its facets hide y. Proof:
    a. The facets of Q hide all points z of the ball of radius r about y, or none of them: as z
       moves, the number of facets of Q on its ray changes only where z crosses a facet, (1), or the
-      ray crosses an event edge, (2). In (1), facets of a closed Q that face away from the laser
-      need not be counted: where z crosses one, it enters or leaves the inside of Q, and on either
-      side of it the ray of z meets a facet that faces the laser.
+      ray crosses an event edge, (2). Facets seen edge-on do not count: almost no ray meets one.
+      Nor do those of a closed Q that face away from the laser: a ray that meets one leaves Q later,
+      through a facet that faces the laser; where rounding has folded the mesh at a contour, so that
+      it does not, the contour is within rounding of it, and (2) holds. In (1) they do not count
+      either: where z crosses one, it enters or leaves the inside of Q, and on either side of it the
+      ray of z meets a facet that faces the laser.
    b. If they hide no z, Q does not hide x: if a point of W hid x, a point s within k_Q of it would
       hide a point z within k_Q of x, and z is in the ball. If Q is open or flat, s is a point of S.
       If Q is closed, s is a point of the solid that S encloses: a ray that reaches s from below
