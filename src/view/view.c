@@ -128,6 +128,29 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
     return incidence;
 }
 
+int lrcsi_view_point_above(const lrcsi_view *view, uint32_t facet, const double x[2],
+                           double point[3])
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    double weight[3];
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = view->point[corner[(k + 1) % 3]].x;
+        const double *b = view->point[corner[(k + 2) % 3]].x;
+        weight[k] = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
+        weight[k] *= view->facing[facet]; /* 1: the corners run counter-clockwise */
+        sum += weight[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        point[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            point[k] += weight[i] / sum * lrcsi_prepared_corner(p, facet, i)[k];
+        }
+    }
+    return sum > 0 && weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0;
+}
+
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];

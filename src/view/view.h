@@ -133,6 +133,11 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 /* The incidence of a facet that is not skipped. */
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 
+/* The point of a facet, rounded, of which the projection is a point of the view plane. Returns 0 if
+   that is not in the facet. */
+int lrcsi_view_point_above(const lrcsi_view *view, uint32_t facet, const double x[2],
+                           double point[3]);
+
 /* Only its projected area: the same bits, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 

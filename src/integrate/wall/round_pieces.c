@@ -568,7 +568,8 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
         }
     }
     if (any && job->wall.surface.side < 0 && /* 3 */
-        !lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, work, terms)) {
+        !lrcsi_round_rim_add(&job->wall, job->band->whole, job->visible, *o, job->meter, work,
+                             terms)) {
         for (uint32_t f = part->first_facet; f < end; f++) {
             if (is_in_set(job, terms, f)) {
                 terms[f].way = LRCSI_WALL_FACET;

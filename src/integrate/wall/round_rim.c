@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds which facets of the inside lie under which sides of the rim, and adds the margins. */
+/* Finds which facets of the inside lie under which parts of the rim's sides, and adds the margins.
+   */
 #include "integrate/wall/round_rim.h"
 
 #include <math.h>
@@ -15,21 +16,29 @@
 /* More than the rounding error of angles. */
 #define ANGLE_ERR 1e-9
 
+/* The margin of a side is divided into so many cells, at equal steps of the side's parameter; a bit
+   stands for each. */
+#define CELLS 64
+typedef uint64_t cell_set;
+
 /* A side of the rim, and the facets of the inside under it. */
 typedef struct rim_side {
     lrcsi_round_side at;
-    uint32_t facet; /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is
+    uint32_t facet;  /* one that is in C, if possible one that the sum includes; LRCS_NONE: there is
                        none */
-    int is_summed;  /* the sum includes that facet: something of it may be visible */
-    int is_visible; /* something of one of the facets in C is visible */
-    int is_certain; /* all facets are in C, and no other part's shadow ends on them */
-    double bound;   /* on G above those in C */
+    int is_summed;   /* the sum includes that facet: something of it may be visible */
+    double bound;    /* on G above those in C */
+    cell_set inside; /* above which there may be facets of C */
+    cell_set uncertain; /* above which there may be others, or near which event edges pass */
+    cell_set known;     /* of those above C alone: their margin is added, or hidden */
 } rim_side;
 
 typedef struct rim_job {
     const lrcsi_round_wall *wall;
     const lrcsi_proximity_band *band;
     const lrcsi_visible_area *visible;
+    const lrcsi_occlusion *o;
+    lrcsi_meter *meter;
     const lrcs_part *part;
     rim_side *side; /* of each sector */
 } rim_job;
@@ -125,48 +134,251 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
     return found;
 }
 
-/* Enters a facet under the sides that may lie above it. */
-static void rim_enter(const rim_job *job, const lrcsi_wall_terms *terms, uint32_t facet)
+/* --- cells ------------------------------------------------------------------------------------ */
+
+/* The cells with a parameter between these limits. */
+static cell_set cells_between(double from, double to)
 {
-    const lrcsi_part_set others = lrcsi_part_set_without(job->band->parts[facet], job->wall->part);
+    const double low = lrcsi_max(0, floor((from + 1) * (CELLS / 2)));
+    const double high = lrcsi_min(CELLS - 1, floor((to + 1) * (CELLS / 2)));
+    if (!(low <= high)) {
+        return 0;
+    }
+    const unsigned count = (unsigned)(high - low) + 1;
+    return (~(cell_set)0 >> (CELLS - count)) << (unsigned)low;
+}
+
+/* The first run of cells in a set, which it is removed from. Returns 0 if the set is empty. */
+static cell_set cells_next(cell_set *set, lrcsi_round_range *range)
+{
+    cell_set run = 0;
+    unsigned at = 0;
+    while (at < CELLS && ((*set >> at) & 1) == 0) {
+        at++;
+    }
+    range->from = (double)at / (CELLS / 2) - 1;
+    for (; at < CELLS && ((*set >> at) & 1) != 0; at++) {
+        run |= (cell_set)1 << at;
+    }
+    range->to = (double)at / (CELLS / 2) - 1;
+    *set &= ~run;
+    return run;
+}
+
+/* The cells under which a facet may lie. No point of a margin is farther from the point of the side
+   with the same parameter than two reaches. */
+static cell_set facet_cells(const rim_job *job, const lrcsi_round_side *side, uint32_t facet)
+{
+    const lrcsi_view *view = job->wall->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const double half = lrcsi_length_flat(side->step[0], side->step[1]);
+    double width = 2 * view->prepared->proximity.reach[job->wall->part] +
+                   job->wall->surface.position_err + view->point[side->vertex[0]].err +
+                   view->point[side->vertex[1]].err;
+    double along[3];
+    double across[3];
+    double from = HUGE_VAL;
+    double to = -HUGE_VAL;
+    for (int i = 0; i < 3; i++) {
+        const lrcsi_view_vertex *at = &view->point[corner[i]];
+        const double x[2] = {at->x[0] - side->chord[0], at->x[1] - side->chord[1]};
+        along[i] = (x[0] * side->step[0] + x[1] * side->step[1]) / half;
+        across[i] = (x[1] * side->step[0] - x[0] * side->step[1]) / half;
+        width += 2 * at->err;
+    }
+    width *= 1 + ANGLE_ERR;
+    for (int i = 0; i < 3; i++) {
+        const int next = (i + 1) % 3;
+        lrcsi_segment_part part = {0, 1};
+        lrcsi_segment_part_limit(&part, across[i], across[next], width);
+        lrcsi_segment_part_limit(&part, -across[i], -across[next], width);
+        if (!lrcsi_segment_part_is_empty(part)) {
+            lrcsi_range_extend(along[i] + part.from * (along[next] - along[i]), &from, &to);
+            lrcsi_range_extend(along[i] + part.to * (along[next] - along[i]), &from, &to);
+        }
+    }
+    return half > 0 ? cells_between((from - width) / half, (to + width) / half) : ~(cell_set)0;
+}
+
+/* The cells of a side near which event edges of other parts pass. */
+static cell_set near_cells(const rim_job *job, const lrcsi_round_side *side)
+{
+    const lrcsi_segment_part near = job->band->rim[side->facet];
+    const uint32_t *corner = job->wall->view->prepared->scene->facet[side->facet].corner;
+    const double from = 2 * near.from - 1;
+    const double to = 2 * near.to - 1;
+    if (lrcsi_segment_part_is_empty(near)) {
+        return 0;
+    }
+    return side->vertex[0] == corner[side->corner]
+               ? cells_between(from - ANGLE_ERR, to + ANGLE_ERR)
+               : cells_between(-to - ANGLE_ERR, -from + ANGLE_ERR);
+}
+
+/* --- facets under sides ----------------------------------------------------------------------- */
+
+/* The sides that may lie above a facet, as numbers from first to last of each arc, modulo the
+   number of sides. Returns how many arcs there are. */
+typedef struct rim_sides {
+    uint32_t first, last;
+} rim_sides;
+
+static int sides_above(const rim_job *job, uint32_t facet, rim_sides sides[2])
+{
     const uint32_t around = job->part->divisions.around;
     const double width = 2 * job->wall->body.half;
     rim_arc arc[2];
     const int arcs = arcs_above(job, facet, arc);
     for (int k = 0; k < arcs; k++) {
-        const uint32_t first = (uint32_t)floor((arc[k].from + 4 * LRCS_PI) / width);
-        const uint32_t last = (uint32_t)floor((arc[k].to + 4 * LRCS_PI) / width);
-        for (uint32_t i = first; i <= last && i - first < around; i++) {
-            rim_side *side = &job->side[i % around];
-            side->is_certain &= terms[facet].way == LRCSI_WALL_PIECES && others == 0;
-            if (terms[facet].way == LRCSI_WALL_PIECES) {
+        sides[k].first = (uint32_t)floor((arc[k].from + 4 * LRCS_PI) / width);
+        sides[k].last = (uint32_t)floor((arc[k].to + 4 * LRCS_PI) / width);
+        if (sides[k].last - sides[k].first >= around) {
+            sides[k].last = sides[k].first + around - 1;
+        }
+    }
+    return arcs;
+}
+
+/* Enters a facet under the sides that may lie above it. */
+static void rim_enter(const rim_job *job, const lrcsi_wall_terms *terms, uint32_t facet)
+{
+    rim_sides sides[2];
+    const int arcs = sides_above(job, facet, sides);
+    for (int k = 0; k < arcs; k++) {
+        for (uint32_t i = sides[k].first; i <= sides[k].last; i++) {
+            rim_side *side = &job->side[i % job->part->divisions.around];
+            const cell_set cells = facet_cells(job, &side->at, facet);
+            if (terms[facet].way != LRCSI_WALL_PIECES) {
+                side->uncertain |= cells;
+            } else if (cells != 0) {
+                side->inside |= cells;
                 side->facet = side->is_summed ? side->facet : facet;
                 side->is_summed |= job->visible[facet].high > 0;
-                side->is_visible |= job->visible[facet].low > 0;
                 side->bound = lrcsi_max(side->bound, terms[facet].bound);
             }
         }
     }
 }
 
-/* Adds the margin of a side of the rim to a facet under it or, if that is uncertain, a bound on it
-   to the facet's error. */
-static void rim_add_margin(const rim_job *job, const rim_side *side, lrcsi_wall_terms *terms)
+/* The cells of a side of which the margin is added if something is visible next to it. */
+static cell_set certain_cells(const rim_job *job, const rim_side *side)
 {
-    const lrcsi_view *view = job->wall->view;
-    const lrcsi_round_side *at = &side->at;
-    const int away = view->facing[at->facet] <= 0;
+    return job->wall->view->facing[side->at.facet] > 0 ? side->inside & ~side->uncertain : 0;
+}
+
+/* Is a point of the view plane surely in the projected opening of the facets? It is on the same
+   side of each of the opening's sides as the rim's middle. */
+static int is_in_opening(const rim_job *job, const double x[2])
+{
+    const double *middle = job->wall->surface.view;
+    int in = 1;
+    for (uint32_t i = 0; i < job->part->divisions.around && in; i++) {
+        const lrcsi_round_side *side = &job->side[i].at;
+        const double err =
+            8 *
+            (job->wall->surface.position_err + job->wall->view->point[side->vertex[0]].err +
+             job->wall->view->point[side->vertex[1]].err) *
+            lrcsi_length_flat(side->step[0], side->step[1]);
+        const double here =
+            side->step[0] * (x[1] - side->chord[1]) - side->step[1] * (x[0] - side->chord[0]);
+        const double there = side->step[0] * (middle[1] - side->chord[1]) -
+                             side->step[1] * (middle[0] - side->chord[0]);
+        in = there > 0 ? here > err : here < -err;
+    }
+    return in;
+}
+
+/* Is a facet of the inside, in projection above a point of the opening, visible there? An answer of
+   visibility/uniform/query.h. */
+static int facet_answer(const rim_job *job, uint32_t facet, const double x[2])
+{
+    double point[3];
+    if (!job->o || !lrcsi_view_point_above(job->wall->view, facet, x, point) ||
+        !is_in_opening(job, x)) {
+        return LRCSI_QUERY_NO_ANSWER;
+    }
+    return job->band->classification->undecided[facet]
+               ? lrcsi_query_point(&job->o->facets, facet, point, job->meter)
+               : job->o->answer[facet];
+}
+
+/* Subtracts the integral over the margin along a run of cells. If it is not known, because the wall
+   is nearly edge-on somewhere, that of each cell of which it is. */
+static void rim_subtract(const rim_job *job, rim_side *side, cell_set run, lrcsi_round_range range,
+                         lrcsi_wall_terms *to)
+{
     lrcsi_round_margin margin;
-    if (side->facet == LRCS_NONE ||
-        !lrcsi_view_may_face(view, at->facet, job->part->bounds.patch.turn)) {
+    if (lrcsi_round_margin_make(job->wall, &side->at, range, &margin)) {
+        lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
+        side->known |= run;
         return;
     }
-    lrcsi_wall_terms *to = &terms[side->facet];
-    if (lrcsi_round_margin_make(job->wall, at, lrcsi_round_whole_side, &margin) && !away &&
-        side->is_certain && side->is_summed && side->is_visible) {
-        lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
-    } else {
-        to->sum.remainder += side->bound * margin.area * LRCSI_OUTWARD_NANO;
+    for (unsigned i = 0; i < CELLS; i++) {
+        const cell_set cell = run & ((cell_set)1 << i);
+        range = (lrcsi_round_range){(double)i / (CELLS / 2) - 1, (i + 1.0) / (CELLS / 2) - 1};
+        if (cell != 0 && lrcsi_round_margin_make(job->wall, &side->at, range, &margin)) {
+            lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
+            side->known |= cell;
+        }
+    }
+}
+
+/* Adds the margin along a run of cells above facets of C alone to one of these, if that lies under
+   a point next to the run, half a reach inside the opening: it is visible there if and only if what
+   is under the margin is. */
+static void rim_add_run(const rim_job *job, rim_side *side, cell_set run, lrcsi_round_range range,
+                        uint32_t facet, lrcsi_wall_terms *to)
+{
+    const lrcsi_round_side *at = &side->at;
+    const double *middle = job->wall->surface.view;
+    const double t = 0.5 * (range.from + range.to);
+    const double half = lrcsi_length_flat(at->step[0], at->step[1]);
+    const double left =
+        at->step[0] * (middle[1] - at->chord[1]) - at->step[1] * (middle[0] - at->chord[0]);
+    const double in = (left > 0 ? 0.5 : -0.5) *
+                      job->wall->view->prepared->proximity.reach[job->wall->part] / half;
+    const double x[2] = {at->chord[0] + t * at->step[0] - in * at->step[1],
+                         at->chord[1] + t * at->step[1] + in * at->step[0]};
+    const int answer = facet_answer(job, facet, x);
+    if (answer == LRCSI_QUERY_HIDDEN) {
+        side->known |= run;
+    } else if (answer == LRCSI_QUERY_VISIBLE && job->visible[facet].high > 0) {
+        rim_subtract(job, side, run, range, to);
+    }
+}
+
+/* Adds the margins of the sides that may lie above a facet of C, where the facet tells whether they
+   are visible. */
+static void rim_add_known(const rim_job *job, uint32_t facet, lrcsi_wall_terms *terms)
+{
+    rim_sides sides[2];
+    const int arcs = sides_above(job, facet, sides);
+    for (int k = 0; k < arcs; k++) {
+        for (uint32_t i = sides[k].first; i <= sides[k].last; i++) {
+            rim_side *side = &job->side[i % job->part->divisions.around];
+            cell_set left = certain_cells(job, side);
+            lrcsi_round_range range;
+            for (cell_set run; (run = cells_next(&left, &range)) != 0;) {
+                if ((side->known & run) == 0) {
+                    rim_add_run(job, side, run, range, facet, &terms[facet]);
+                }
+            }
+        }
+    }
+}
+
+/* Adds bounds on the other margins of a side to the error of a facet of C under it. */
+static void rim_add_unknown(const rim_job *job, const rim_side *side, lrcsi_wall_terms *terms)
+{
+    cell_set left = side->inside & ~side->known;
+    lrcsi_round_range range;
+    if (!lrcsi_view_may_face(job->wall->view, side->at.facet, job->part->bounds.patch.turn)) {
+        return;
+    }
+    while (cells_next(&left, &range) != 0) {
+        lrcsi_round_margin margin;
+        lrcsi_round_margin_extent(job->wall, &side->at, range, &margin);
+        terms[side->facet].sum.remainder += side->bound * margin.area * LRCSI_OUTWARD_NANO;
     }
 }
 
@@ -183,9 +395,11 @@ size_t lrcsi_round_rim_need(const lrcs_prepared *prepared)
 /* 1. The sides are known, and no margin is wider than two reaches of the part. Then all facets
    under it meet a band of their own part (visibility/proximity/event_band.c, 3).
    2. Which facets are under which sides.
-   3. The margins of the sides. */
+   3. The margins of which it is known whether they are visible.
+   4. Bounds on the others. */
 int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_band *band,
-                        const lrcsi_visible_area *visible, lrcs_work *work, lrcsi_wall_terms *terms)
+                        const lrcsi_visible_area *visible, const lrcsi_occlusion *o,
+                        lrcsi_meter *meter, lrcs_work *work, lrcsi_wall_terms *terms)
 {
     const lrcs_prepared *p = inside->view->prepared;
     const lrcs_part *part = &p->scene->part[inside->part];
@@ -193,8 +407,8 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
     const uint32_t from = part->first_facet;
     const uint32_t to = from + part->facet_count;
     const uint32_t around = part->divisions.around;
-    const rim_job job = {inside, band, visible, part,
-                         lrcsi_work_take(work, around, sizeof(rim_side))};
+    const rim_job job = {
+        inside, band, visible, o, meter, part, lrcsi_work_take(work, around, sizeof(rim_side))};
     uint32_t sides = 0;
     int known = job.side != NULL;
     for (uint32_t f = from; f < to && known; f++) { /* 1 */
@@ -204,8 +418,9 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
             lrcsi_round_margin margin;
             lrcsi_round_margin_extent(inside, &sector.side[0], lrcsi_round_whole_side, &margin);
             known = margin.width <= 2 * p->proximity.reach[inside->part];
-            job.side[number] =
-                (rim_side){.at = sector.side[0], .facet = LRCS_NONE, .is_certain = 1};
+            job.side[number] = (rim_side){.at = sector.side[0],
+                                          .facet = LRCS_NONE,
+                                          .uncertain = near_cells(&job, &sector.side[0])};
             sides++;
         }
     }
@@ -215,8 +430,13 @@ int lrcsi_round_rim_add(const lrcsi_round_wall *inside, const lrcsi_proximity_ba
             rim_enter(&job, terms, f);
         }
     }
-    for (uint32_t i = 0; i < around && known; i++) { /* 3 */
-        rim_add_margin(&job, &job.side[i], terms);
+    for (uint32_t f = from; f < to && known; f++) { /* 3 */
+        if (terms[f].way == LRCSI_WALL_PIECES && is_under_rim(&job, f)) {
+            rim_add_known(&job, f, terms);
+        }
+    }
+    for (uint32_t i = 0; i < around && known; i++) { /* 4 */
+        rim_add_unknown(&job, &job.side[i], terms);
     }
     work->used = mark;
     return known;

@@ -488,35 +488,84 @@ int lrcsi_event_band_make(lrcsi_event_bands *bands, const lrcsi_band_facet *at, 
     return 1;
 }
 
-void lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
-                       lrcsi_near_sides *near)
+/* The rectangle in which a side is not free because of an event edge. Returns 0 if the edge does
+   not matter. */
+static int side_rectangle(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                          lrcsi_edge_rectangle *box)
 {
     const uint32_t facet = at->facet;
-    const lrcsi_view *view = bands->view;
-    const lrcs_prepared *p = view->prepared;
+    const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
-    const uint32_t *corner = p->scene->facet[facet].corner;
     const uint32_t own = facet_part(bands, facet);
     const uint32_t part = bands->events.part[event];
     double slack = lrcsi_proximity_slack_aligned(p, part);
     double unproved;
     if (part == own) {
         if (!at->inside || !rim_may_face(bands, event)) {
-            return;
+            return 0;
         }
         slack = p->proximity.hausdorff[own] + LRCSI_PROXIMITY_ERR;
     } else if (lrcsi_part_is_behind(&bands->orders, facet, part, &unproved) ||
                event_is_behind(bands, facet, event, 1)) {
-        return;
+        return 0;
     }
-    const lrcsi_edge_rectangle box =
-        lrcsi_edge_rectangle_make(view, facet, edge, slack + 2 * p->proximity.reach[own]);
-    for (int k = 0; k < 3; k++) {
-        const lrcsi_segment_part part_near = lrcsi_edge_rectangle_part(
-            &box, view->point[corner[k]].x, view->point[corner[(k + 1) % 3]].x);
-        if (!lrcsi_segment_part_is_empty(part_near)) {
-            near->side[k].from = lrcsi_min(near->side[k].from, part_near.from);
-            near->side[k].to = lrcsi_max(near->side[k].to, part_near.to);
+    *box = lrcsi_edge_rectangle_make(bands->view, facet, edge, slack + 2 * p->proximity.reach[own]);
+    return 1;
+}
+
+/* Extends the part of a facet's side from corner k by what of it is in a rectangle. */
+static void side_extend(const lrcsi_view *view, uint32_t facet, int k,
+                        const lrcsi_edge_rectangle *box, lrcsi_segment_part *near)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const lrcsi_segment_part part = lrcsi_edge_rectangle_part(box, view->point[corner[k]].x,
+                                                              view->point[corner[(k + 1) % 3]].x);
+    if (!lrcsi_segment_part_is_empty(part)) {
+        near->from = lrcsi_min(near->from, part.from);
+        near->to = lrcsi_max(near->to, part.to);
+    }
+}
+
+void lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
+                       lrcsi_near_sides *near)
+{
+    lrcsi_edge_rectangle box;
+    for (int k = 0; k < 3 && side_rectangle(bands, at, event, &box); k++) {
+        side_extend(bands->view, at->facet, k, &box, &near->side[k]);
+    }
+}
+
+/* Extends the parts of the sides on rims of the facet's part by what of them is in a rectangle. */
+static void rims_extend(const lrcsi_event_bands *bands, uint32_t part, const uint32_t *listed,
+                        uint32_t count, const lrcsi_edge_rectangle *box, lrcsi_segment_part *near)
+{
+    const lrcsi_topology *topology = &bands->view->prepared->topology;
+    for (uint32_t i = 0; i < count; i++) {
+        if (bands->events.part[listed[i]] != part || !rim_may_face(bands, listed[i])) {
+            continue;
+        }
+        const uint32_t edge = bands->events.edge[listed[i]];
+        const uint32_t facet = lrcsi_edge_facets_of(bands->view, edge, part).facet[0];
+        for (int k = 0; k < 3; k++) {
+            if (topology->facet_edge[facet].corner[k] == edge) {
+                side_extend(bands->view, facet, k, box, &near[facet]);
+            }
+        }
+    }
+}
+
+void lrcsi_event_rims(lrcsi_event_bands *bands, const lrcsi_band_facet *at, const uint32_t *listed,
+                      uint32_t count, lrcsi_segment_part *near)
+{
+    const uint32_t own = facet_part(bands, at->facet);
+    lrcsi_edge_rectangle box;
+    int rims = 0;
+    for (uint32_t i = 0; i < count && at->inside; i++) {
+        rims += bands->events.part[listed[i]] == own;
+    }
+    for (uint32_t i = 0; i < count && rims > 0; i++) {
+        if (bands->events.part[listed[i]] != own && side_rectangle(bands, at, listed[i], &box)) {
+            rims_extend(bands, own, listed, count, &box, near);
         }
     }
 }

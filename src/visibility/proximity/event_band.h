@@ -90,4 +90,10 @@ typedef struct lrcsi_near_sides {
 void lrcsi_event_sides(lrcsi_event_bands *bands, const lrcsi_band_facet *at, uint32_t event,
                        lrcsi_near_sides *near);
 
+/* The same for the sides on rims of its own part through which the laser sees a facet of an inside:
+   extends near[of the facet that has such a side] by what is near event edges of other parts.
+   Given: the event edges that the search does not exclude. */
+void lrcsi_event_rims(lrcsi_event_bands *bands, const lrcsi_band_facet *at, const uint32_t *listed,
+                      uint32_t count, lrcsi_segment_part *near);
+
 #endif

@@ -235,6 +235,7 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
             band->loss_aligned[facet] += fractions.loss + open;
         }
     }
+    lrcsi_event_rims(&job->bands, at, job->listed, count, band->rim);
 }
 
 /* Begins the fractions for aligned points, unless they cannot be known. The facet must lie on a
@@ -375,6 +376,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_segment_part)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     const size_t faces = lrcsi_face_margins_need(p); /* released before walls take memory */
@@ -442,6 +444,9 @@ static int all_fractions(band_job *job, lrcs_work *work)
         return status;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        band->rim[f] = sides_free.side[0];
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->gain_aligned[f] = -1;
         band->sides[f] = sides_near;
         if (facet_matters(job->view, f)) {
@@ -495,6 +500,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.gain_aligned = lrcsi_work_take(work, facets, sizeof *m.gain_aligned);
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
+    m.rim = lrcsi_work_take(work, facets, sizeof *m.rim);
     m.face = lrcsi_work_take_zero(work, view->prepared->scene->part_count, sizeof *m.face);
     m.margin = lrcsi_work_take(work, facets, sizeof *m.margin);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
@@ -502,7 +508,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
     int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.sides && m.face && m.margin && m.parts && m.region
+                         m.sides && m.rim && m.face && m.margin && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

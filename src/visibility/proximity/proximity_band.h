@@ -26,6 +26,9 @@ typedef struct lrcsi_proximity_band {
     double *loss_aligned;    /* facet: the loss then, if the gain is known */
     lrcsi_near_sides *sides; /* facet: what of its sides may be near event edges, if the gain is
                                   known (event_band.c, 5) */
+    lrcsi_segment_part *rim; /* facet: of its side on a rim, if the laser sees an inside of its
+                                    part through that, what may be near event edges of other parts
+                                    that matter to that inside */
     lrcsi_face_margin *face; /* part: of the flat face that the laser sees of it. The facets of a
                                   known face have a gain and a loss of aligned points, which do not
                                   contain its margins (event_band.c, 6) */

@@ -24,8 +24,8 @@ static int edge_matters(const lrcsi_view *view, uint32_t edge, uint32_t part,
     int matters = lrcsi_edge_is_rim(on);
     for (uint32_t i = 0; i < topology->edge[edge].uses && !matters; i++) {
         const int facing = view->facing[use[i].facet];
-        matters = p->scene->facet_part[use[i].facet] == part &&
-                  (facing > 0 || (facing < 0 && !closed));
+        matters =
+            p->scene->facet_part[use[i].facet] == part && (facing > 0 || (facing < 0 && !closed));
     }
     return matters;
 }

@@ -401,28 +401,6 @@ static void wall_facets_make(lrcsi_wall_margins *job)
                                          &job->facets) == LRCS_OK;
 }
 
-/* The point of a facet above a point of the view plane. Returns 0 if the facet is not above it. */
-static int facet_point(const lrcsi_view *view, uint32_t facet, const double x[2], double point[3])
-{
-    const lrcs_prepared *p = view->prepared;
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    double weight[3];
-    double sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *a = view->point[corner[(k + 1) % 3]].x;
-        const double *b = view->point[corner[(k + 2) % 3]].x;
-        weight[k] = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
-        sum += weight[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        point[k] = 0;
-        for (int i = 0; i < 3; i++) {
-            point[k] += weight[i] / sum * lrcsi_prepared_corner(p, facet, i)[k];
-        }
-    }
-    return sum > 0 && weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0;
-}
-
 /* (f): an answer of visibility/uniform/query.h for a point half of w beyond the edge. */
 static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 {
@@ -446,7 +424,7 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
     for (uint32_t i = 0; i < job->facet_count && job->facets_made; i++) {
         double point[3];
         const uint32_t f = job->facet[i].facet;
-        if (job->reader[f] && facet_point(view, f, x, point)) {
+        if (job->reader[f] && lrcsi_view_point_above(view, f, x, point)) {
             return lrcsi_query_point(&job->facets, f, point, job->bands->meter);
         }
     }
