@@ -18,7 +18,8 @@
 
 /* The margin of a side is divided into so many cells, at equal steps of the side's parameter; a bit
    stands for each. */
-#define CELLS 64
+#define CELLS     64u
+#define CELL_STEP (2.0 / CELLS)
 typedef uint64_t cell_set;
 
 /* A side of the rim, and the facets of the inside under it. */
@@ -139,8 +140,8 @@ static int rim_sector(const rim_job *job, uint32_t facet, lrcsi_round_sector *se
 /* The cells with a parameter between these limits. */
 static cell_set cells_between(double from, double to)
 {
-    const double low = lrcsi_max(0, floor((from + 1) * (CELLS / 2)));
-    const double high = lrcsi_min(CELLS - 1, floor((to + 1) * (CELLS / 2)));
+    const double low = lrcsi_max(0, floor((from + 1) / CELL_STEP));
+    const double high = lrcsi_min(CELLS - 1.0, floor((to + 1) / CELL_STEP));
     if (!(low <= high)) {
         return 0;
     }
@@ -156,11 +157,11 @@ static cell_set cells_next(cell_set *set, lrcsi_round_range *range)
     while (at < CELLS && ((*set >> at) & 1) == 0) {
         at++;
     }
-    range->from = (double)at / (CELLS / 2) - 1;
+    range->from = at * CELL_STEP - 1;
     for (; at < CELLS && ((*set >> at) & 1) != 0; at++) {
         run |= (cell_set)1 << at;
     }
-    range->to = (double)at / (CELLS / 2) - 1;
+    range->to = at * CELL_STEP - 1;
     *set &= ~run;
     return run;
 }
@@ -315,7 +316,7 @@ static void rim_subtract(const rim_job *job, rim_side *side, cell_set run, lrcsi
     }
     for (unsigned i = 0; i < CELLS; i++) {
         const cell_set cell = run & ((cell_set)1 << i);
-        range = (lrcsi_round_range){(double)i / (CELLS / 2) - 1, (i + 1.0) / (CELLS / 2) - 1};
+        range = (lrcsi_round_range){i * CELL_STEP - 1, (i + 1) * CELL_STEP - 1};
         if (cell != 0 && lrcsi_round_margin_make(job->wall, &side->at, range, &margin)) {
             lrcsi_round_sum_append(&margin.sum, -1, &to->sum);
             side->known |= cell;
