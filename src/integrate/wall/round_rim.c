@@ -261,10 +261,21 @@ static void rim_enter(const rim_job *job, const lrcsi_wall_terms *terms, uint32_
     }
 }
 
-/* The cells of a side of which the margin is added if something is visible next to it. */
+/* Positive if a point is to the left of a side, where its sector is: its distance from the side's
+   line times half the side's length. */
+static double side_left(const lrcsi_round_side *side, const double x[2])
+{
+    return side->step[0] * (x[1] - side->chord[1]) - side->step[1] * (x[0] - side->chord[0]);
+}
+
+/* The cells of a side of which the margin is added if something is visible next to it. Its sector
+   faces the laser; then the opening is on the other side of it, unless rounding has turned a sector
+   that is edge-on. */
 static cell_set certain_cells(const rim_job *job, const rim_side *side)
 {
-    return job->wall->view->facing[side->at.facet] > 0 ? side->inside & ~side->uncertain : 0;
+    const int certain = job->wall->view->facing[side->at.facet] > 0 &&
+                        side_left(&side->at, job->wall->surface.view) < 0;
+    return certain ? side->inside & ~side->uncertain : 0;
 }
 
 /* Is a point of the view plane surely in the projected opening of the facets? It is on the same
@@ -280,10 +291,8 @@ static int is_in_opening(const rim_job *job, const double x[2])
             (job->wall->surface.position_err + job->wall->view->point[side->vertex[0]].err +
              job->wall->view->point[side->vertex[1]].err) *
             lrcsi_length_flat(side->step[0], side->step[1]);
-        const double here =
-            side->step[0] * (x[1] - side->chord[1]) - side->step[1] * (x[0] - side->chord[0]);
-        const double there = side->step[0] * (middle[1] - side->chord[1]) -
-                             side->step[1] * (middle[0] - side->chord[0]);
+        const double here = side_left(side, x);
+        const double there = side_left(side, middle);
         in = there > 0 ? here > err : here < -err;
     }
     return in;
@@ -331,15 +340,11 @@ static void rim_add_run(const rim_job *job, rim_side *side, cell_set run, lrcsi_
                         uint32_t facet, lrcsi_wall_terms *to)
 {
     const lrcsi_round_side *at = &side->at;
-    const double *middle = job->wall->surface.view;
     const double t = 0.5 * (range.from + range.to);
-    const double half = lrcsi_length_flat(at->step[0], at->step[1]);
-    const double left =
-        at->step[0] * (middle[1] - at->chord[1]) - at->step[1] * (middle[0] - at->chord[0]);
-    const double in = (left > 0 ? 0.5 : -0.5) *
-                      job->wall->view->prepared->proximity.reach[job->wall->part] / half;
-    const double x[2] = {at->chord[0] + t * at->step[0] - in * at->step[1],
-                         at->chord[1] + t * at->step[1] + in * at->step[0]};
+    const double right = 0.5 * job->wall->view->prepared->proximity.reach[job->wall->part] /
+                         lrcsi_length_flat(at->step[0], at->step[1]);
+    const double x[2] = {at->chord[0] + t * at->step[0] + right * at->step[1],
+                         at->chord[1] + t * at->step[1] - right * at->step[0]};
     const int answer = facet_answer(job, facet, x);
     if (answer == LRCSI_QUERY_HIDDEN) {
         side->known |= run;
