@@ -13,11 +13,11 @@
        in projection than r' + 2 e_P to the side there (visibility/proximity/event_band.c, 5).
    Within 2 e_P of the side, where the margin is, other parts then hide all of the inside, in truth
    and for the facets, or nothing of it. A sample next to the side tells which, in the opening of
-   the facets, where the own wall hides nothing. If they hide all of it, there is nothing to add.
+   the facets, where the own wall hides nothing. If they hide all of it, the margin adds nothing.
 
    For any other part of a margin, G's bound times the area is an error, in either direction. Where
    the side's facet faces away, and the true wall does too, the side is part of the border of C, or
-   belongs to a patch that is entirely visible, and there is nothing to add. */
+   belongs to a patch that is entirely visible, and the margin adds nothing. */
 #ifndef LRCSI_ROUND_RIM_H
 #define LRCSI_ROUND_RIM_H
 

@@ -21,6 +21,7 @@ typedef struct lrcsi_edge_facets {
     uint32_t forward;     /* how many traverse the edge from low to high */
     uint32_t left, right; /* how many lie to the left of it in projection, looking from low to high,
                              and how many to the right; the others are edge-on */
+    uint32_t fronts;      /* how many face the laser */
 } lrcsi_edge_facets;
 
 /* part: LRCS_NONE, or a part of the scene. A facet lies to the left of its side in projection if it
@@ -44,6 +45,7 @@ static inline lrcsi_edge_facets lrcsi_edge_facets_of(const lrcsi_view *view, uin
             on.forward += use[i].forward;
             on.left += side > 0;
             on.right += side < 0;
+            on.fronts += view->facing[f] > 0;
         }
     }
     return on;

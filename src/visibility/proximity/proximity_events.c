@@ -13,21 +13,11 @@
 #define EVENT_ENTRIES 8u
 
 /* Is an edge a rim of the part, or has it a facet that counts: one that is not edge-on and, if the
-   part is closed, faces the laser (visibility/proximity/proximity_band.c, 1.a)? */
-static int edge_matters(const lrcsi_view *view, uint32_t edge, uint32_t part,
-                        const lrcsi_edge_facets *on)
+   part is closed, faces the laser (visibility/proximity/proximity_band.c, 1.a)? Given: its facets
+   of that part. */
+static int edge_matters(const lrcs_part *part, const lrcsi_edge_facets *on)
 {
-    const lrcs_prepared *p = view->prepared;
-    const lrcsi_topology *topology = &p->topology;
-    const lrcsi_edge_use *use = topology->use + topology->edge[edge].first_use;
-    const int closed = p->scene->part[part].solid;
-    int matters = lrcsi_edge_is_rim(on);
-    for (uint32_t i = 0; i < topology->edge[edge].uses && !matters; i++) {
-        const int facing = view->facing[use[i].facet];
-        matters =
-            p->scene->facet_part[use[i].facet] == part && (facing > 0 || (facing < 0 && !closed));
-    }
-    return matters;
+    return lrcsi_edge_is_rim(on) || (part->solid ? on->fronts : on->left + on->right) > 0;
 }
 
 /* Lists all events, each pair once; only counts them if events->edge is NULL. */
@@ -47,7 +37,7 @@ static void list_events(const lrcsi_view *view, lrcsi_proximity_events *events)
                 met = facet_part[use[k].facet] == part;
             }
             if (met || lrcsi_edge_kind_of(view, e, part, &on) != LRCSI_EDGE_EVENT ||
-                !edge_matters(view, e, part, &on)) {
+                !edge_matters(&view->prepared->scene->part[part], &on)) {
                 continue;
             }
             if (events->edge) {
