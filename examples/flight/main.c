@@ -86,7 +86,7 @@ int flight_main(void)
 }
 
 /* expected output, the bits of areas left out:
-cycle 1 status 0 stale 0 flags 0 steps 44084 sigma mm2 30579550 bound mm2 611
+cycle 1 status 0 stale 0 flags 0 steps 44084 sigma mm2 30579550 bound mm2 612
 cycle 2 status 0 stale 0 flags 0 steps 37102 sigma mm2 1697613 bound mm2 211
 cycle 3 status 0 stale 0 flags 0 steps 35485 sigma mm2 7070226 bound mm2 89
 cycle 4 status 0 stale 0 flags 0 steps 21036 sigma mm2 1076713 bound mm2 27

@@ -6,12 +6,17 @@
 
 #include <math.h>
 
+#include "base/outward.h"
 #include "base/range.h"
 
-/* The sine of the largest turn between neighbouring event edges: below that of 0.5. An angle below
+/* The sine of the largest angle between an edge and those that follow it: below that of 0.5. One below
    0.5 is at most 1.05 times its sine. */
 #define TURN_SINE_MAX   0.47
 #define ANGLE_OVER_SINE 1.05
+/* The tangent of an angle below 0.5 is at most 1.1 times the angle. */
+#define TANGENT_OVER_ANGLE 1.1
+/* An edge with more event edges of its part near it than this is not used: heuristic. */
+#define CHAIN_MAX 16
 
 /* The errors of both ends of an edge, for points anywhere near it. */
 static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
@@ -40,6 +45,9 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
+    if (!(m->length > 0)) {
+        return 0;
+    }
     m->err = order_err + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
     for (int i = 0; i < 2; i++) {
@@ -50,23 +58,10 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
     return 1;
 }
 
-/* Does an event edge of Q lead away from the end a (0) or b (1) of an edge? Returns its turn; a
-   negative number if it does not. */
-static double edge_turn(const lrcsi_edge_margin *m, const lrcsi_view *view, const lrcsi_edge *other,
-                        int end)
+double lrcsi_edge_margin_end(const lrcsi_edge_margin *m, double depth, double turn)
 {
-    const uint32_t at = end == 0 ? m->edge->low : m->edge->high;
-    const double *from = view->point[at].x;
-    const double *to = view->point[other->low == at ? other->high : other->low].x;
-    const double away[2] = {to[0] - from[0], to[1] - from[1]};
-    double length = sqrt(away[0] * away[0] + away[1] * away[1]);
-    double along = away[0] * m->along[0] + away[1] * m->along[1];
-    double across = fabs(away[0] * m->along[1] - away[1] * m->along[0]);
-    if (!(length > m->width) || !((end == 0 ? -along : along) > 0) ||
-        !(across + m->err < TURN_SINE_MAX * length)) {
-        return -1;
-    }
-    return ANGLE_OVER_SINE * (across + m->err) / length;
+    const double deepest = lrcsi_min(2 * (m->outline->k + m->err), depth + 2 * m->err);
+    return deepest * deepest * TANGENT_OVER_ANGLE * turn * LRCSI_OUTWARD_NANO;
 }
 
 /* Is an event edge of a part other than Q so far behind the receiver that it does not matter? */
@@ -85,7 +80,7 @@ static int event_is_behind_receiver(lrcsi_event_bands *bands, const lrcsi_margin
            lrcsi_face_part_is_behind(bands, receiver->face, part);
 }
 
-/* (c): may an event edge of another part, or (d) one of Q that is not next to the edge, come within
+/* (c): may an event edge of another part, or (d) another one of Q, come within
    its slack of N? For another part the slack of both parts is tested, which is larger than needed
    (its own Hausdorff distance, or twice that, for aligned points), with the errors of both ends
    wherever N lies, and with what (b) leaves open of a part in front. For P the slack is two
@@ -113,12 +108,81 @@ static int event_meets(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
     return !event_is_behind_receiver(bands, receiver, part, edge, slack);
 }
 
-/* At which end of the edge another event edge of Q begins: 0 a, 1 b, 2 neither. */
-static int end_at(const lrcsi_edge_margin *m, const lrcsi_edge *other)
+/* The event edges of Q near an edge; those that were found to follow one of its ends come first. */
+typedef struct edge_chain {
+    uint32_t event[CHAIN_MAX];
+    int count, followed;
+} edge_chain;
+
+/* Notes an event edge of Q, which may be found more than once. Returns 0 if there are too many. */
+static int chain_add(edge_chain *chain, uint32_t event)
 {
-    const uint32_t a = m->edge->low;
-    const uint32_t b = m->edge->high;
-    return other->low == a || other->high == a ? 0 : other->low == b || other->high == b ? 1 : 2;
+    int i = 0;
+    while (i < chain->count && chain->event[i] != event) {
+        i++;
+    }
+    if (i < chain->count) {
+        return 1;
+    }
+    if (chain->count == CHAIN_MAX) {
+        return 0;
+    }
+    chain->event[chain->count++] = event;
+    return 1;
+}
+
+/* The vertex at which an edge that begins at another vertex ends; LRCS_NONE if it does not begin
+   there. */
+static uint32_t far_end(const lrcsi_edge *edge, uint32_t at)
+{
+    return edge->low == at ? edge->high : edge->high == at ? edge->low : LRCS_NONE;
+}
+
+/* Follows the event edges of Q that lead away from the end a (0) or b (1) of an edge, until one ends
+   farther than w from there. Returns the largest angle between them and the edge; a negative number
+   if they do not lead away so far, or another one begins where one of them does. */
+static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *bands, int end,
+                         edge_chain *chain)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcsi_edge *edge = view->prepared->topology.edge;
+    uint32_t at = end == 0 ? m->edge->low : m->edge->high;
+    const double *start = view->point[at].x;
+    double distance = 0;
+    double turn = 0;
+    while (!(distance > m->width)) {
+        uint32_t next = LRCS_NONE;
+        for (int i = chain->followed; i < chain->count; i++) {
+            const uint32_t other = far_end(&edge[bands->events.edge[chain->event[i]]], at);
+            if (other == LRCS_NONE) {
+                continue;
+            }
+            if (next != LRCS_NONE) {
+                return -1;
+            }
+            next = other;
+            const uint32_t event = chain->event[i];
+            chain->event[i] = chain->event[chain->followed];
+            chain->event[chain->followed] = event;
+        }
+        if (next == LRCS_NONE) {
+            return -1;
+        }
+        chain->followed++;
+        const double *from = view->point[at].x;
+        const double *to = view->point[next].x;
+        const double away[2] = {to[0] - from[0], to[1] - from[1]};
+        const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
+        const double along = away[0] * m->along[0] + away[1] * m->along[1];
+        const double across = fabs(away[0] * m->along[1] - away[1] * m->along[0]) + m->err;
+        if (!((end == 0 ? -along : along) > 0) || !(across < TURN_SINE_MAX * length)) {
+            return -1;
+        }
+        turn = lrcsi_max(turn, ANGLE_OVER_SINE * across / length);
+        distance = fabs((to[0] - start[0]) * m->along[0] + (to[1] - start[1]) * m->along[1]);
+        at = next;
+    }
+    return turn;
 }
 
 /* Searched is a box larger than every distance that event_meets tests: a slack is at most e_P + 2 k
@@ -137,29 +201,23 @@ int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_mar
     const lrcsi_view_box box = lrcsi_view_box_round(bands->view, low, high);
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(&events->grid, &box);
     lrcsi_grid_items items;
-    uint32_t next[2] = {LRCS_NONE, LRCS_NONE}; /* the events at both ends */
+    edge_chain chain = {.count = 0};
     while (lrcsi_grid_next_row(&events->grid, &buckets, &items)) {
         if (!lrcsi_meter_take(bands->meter, (uint64_t)1 + items.to - items.from)) {
             return 0;
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             const uint32_t other = events->grid.item[i];
-            const lrcsi_edge *edge = &p->topology.edge[events->edge[other]];
-            if (other == m->event || other == next[0] || other == next[1] ||
-                (receiver->face && events->part[other] == receiver->part)) {
+            if (other == m->event || (receiver->face && events->part[other] == receiver->part) ||
+                !event_meets(bands, m, receiver, other)) {
                 continue;
             }
-            const int end = events->part[other] == m->part ? end_at(m, edge) : 2;
-            if (end < 2 && !lrcsi_event_rim_is_inside(bands, other)) {
-                turn[end] = edge_turn(m, bands->view, edge, end);
-                if (next[end] != LRCS_NONE || turn[end] < 0) {
-                    return 0;
-                }
-                next[end] = other;
-            } else if (event_meets(bands, m, receiver, other)) {
+            if (events->part[other] != m->part || !chain_add(&chain, other)) {
                 return 0;
             }
         }
     }
-    return next[0] != LRCS_NONE && next[1] != LRCS_NONE;
+    turn[0] = chain_turn(m, bands, 0, &chain);
+    turn[1] = turn[0] < 0 ? -1 : chain_turn(m, bands, 1, &chain);
+    return turn[1] >= 0 && chain.followed == chain.count;
 }

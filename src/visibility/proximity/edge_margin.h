@@ -7,9 +7,6 @@
 
 #include "visibility/proximity/face_frame.h"
 
-/* An edge is used only if it is longer than this many widths w. */
-#define LRCSI_EDGE_MARGIN_WIDTHS 2.0
-
 /* An event edge: its ends, the distance w; the part with its outline. */
 typedef struct lrcsi_edge_margin {
     uint32_t event, part;
@@ -34,8 +31,13 @@ typedef struct lrcsi_margin_receiver {
 int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
                            double order_err, lrcsi_edge_margin *margin);
 
-/* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: the turns
-   at both ends. */
+/* At an end of the edge, given the turn there: an upper bound of the area of the points that are
+   attributed to another edge than by the perpendicular, if points that true shapes and facets hide
+   differently are no deeper than `depth` (face_margin.c). */
+double lrcsi_edge_margin_end(const lrcsi_edge_margin *margin, double depth, double turn);
+
+/* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: A and B,
+   the turns at both ends. */
 int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_margin *margin,
                                   const lrcsi_margin_receiver *receiver, double turn[2]);
 

@@ -17,8 +17,9 @@
        face in K, and its facets those in K', up to e in projection;
    (c) no event edge of a part other than P and Q comes within its slack of N in projection, unless
        it is behind the plane;
-   (d) of Q, only two other event edges meet N, apart from rims inside K'. They begin at a and b,
-       are longer than w, and lead away from the edge: they turn by A and B, less than 0.5 rad;
+   (d) of Q, apart from rims inside K', only such other event edges meet N as follow one another
+       from a or b on, until one ends farther than w from there. These lead away from the edge, at
+       angles of at most A and B, less than 0.5 rad, to it;
    (e) within the slack of the plane, no facet of a part that is not in front of it as in (b) is in
        N in projection;
    (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the face is
@@ -26,7 +27,7 @@
    If that point is visible, so are all points of N beyond the edge, and those on its other side are
    hidden by Q alone, as far as the facets decide it: by (c) and (e) no other part begins or ceases
    to hide anything there, and by (d) the facets of Q do so only at the edge and, beyond the
-   perpendiculars at its ends, at those two. In truth no other part hides anything either, and Q
+   perpendiculars at its ends, at the edges that follow it. In truth no other part hides anything either, and Q
    hides the points of K. If the point is hidden, it is hidden by a part other than Q, whose outline
    ends at the edge, and P, which is convex. By (c) and (e) that part hides all of N, in truth and
    for the facets: the difference is 0.
@@ -41,10 +42,12 @@
    more.
 
    Each point at which K and K' differ is attributed to the event edge of Q nearest to it. Near the
-   end a that is not decided by the perpendicular but, inside K', by the bisector of the two edges,
-   and outside by where both are equally near: the regions between these and the perpendicular, up
-   to a distance of 2 k, have areas of at most 2 k^2 tan(A / 2) and 2 k^2 A. 4 k^2 A exceeds both
-   together; likewise for b. */
+   end a that is not decided by the perpendicular. Such a point is no deeper than D, the largest
+   |d(t)| for |t| <= 2 k, and D <= 2 k. A point inside the perpendicular, at a distance x from it,
+   that is nearer to a point of the edges that follow, r away from a at an angle of at most A to the
+   edge's direction, than to the edge, at a depth y: (x + r cos A)^2 + (y - r sin A)^2 < y^2, so
+   that x < y tan A. A point outside it to which a is the nearest point of all is at most y tan A
+   from it. Both regions have areas of at most D^2 tan(A) / 2; likewise for b. */
 #include "visibility/proximity/face_margin.h"
 
 #include <math.h>
@@ -57,13 +60,31 @@
 #include "visibility/proximity/edge_margin.h"
 #include "visibility/uniform/query.h"
 
+/* Directions in the view plane, at most 12 degrees apart, in which the extent of a part is known. */
+#define DIRECTIONS 16
+static const double face_direction[DIRECTIONS][2] = {
+    {1, 0}, {5, 1},  {5, 2},  {3, 2},  {1, 1},  {2, 3},  {2, 5},  {1, 5},
+    {0, 1}, {-1, 5}, {-2, 5}, {-2, 3}, {-1, 1}, {-3, 2}, {-5, 2}, {-5, 1}};
+
 /* Another part, beside the plane of a face. */
 typedef struct face_part {
     int in_front;     /* 1: it is in front of the plane as in (b) */
     double order_err; /* within this, in projection, that is not known; 0 if it is not in front */
-    double low[2], high[2]; /* in projection: around its facets near the plane, for (e); empty if
-                                  it is in front */
+    double low[DIRECTIONS], high[DIRECTIONS]; /* along these: around its facets near the plane, for
+                                                 (e); empty if it is in front */
 } face_part;
+
+/* The coordinate of a point of the view plane along a direction. */
+static double along_direction(int k, const double x[2])
+{
+    return face_direction[k][0] * x[0] + face_direction[k][1] * x[1];
+}
+
+/* At least what a distance in the view plane is along a direction. */
+static double distance_along(int k, double distance)
+{
+    return distance * (fabs(face_direction[k][0]) + fabs(face_direction[k][1]));
+}
 
 typedef struct face_job {
     lrcsi_event_bands *bands;
@@ -79,7 +100,16 @@ typedef struct face_job {
 
 /* --- the parts beside the plane of a face ----------------------------------------------------- */
 
-/* Grows a part's box by what of a facet is within `slack` of the plane of the face. */
+/* Makes the extent of a part from `low` to -low in all directions. */
+static void face_part_limit(face_part *part, double low)
+{
+    for (int k = 0; k < DIRECTIONS; k++) {
+        part->low[k] = low;
+        part->high[k] = -low;
+    }
+}
+
+/* Grows a part's extent by what of a facet is within `slack` of the plane of the face. */
 static void face_part_add(const face_job *job, uint32_t facet, const double up[3], double slack,
                           face_part *part)
 {
@@ -105,9 +135,10 @@ static void face_part_add(const face_job *job, uint32_t facet, const double up[3
     for (int i = 0; i < slice.count; i++) {
         double x[3];
         lrcsi_view_coordinates(view, slice.x[i], x);
-        for (int k = 0; k < 2; k++) {
-            part->low[k] = lrcsi_min(part->low[k], x[k] - slack);
-            part->high[k] = lrcsi_max(part->high[k], x[k] + slack);
+        for (int k = 0; k < DIRECTIONS; k++) {
+            const double at = along_direction(k, x);
+            part->low[k] = lrcsi_min(part->low[k], at - distance_along(k, slack));
+            part->high[k] = lrcsi_max(part->high[k], at + distance_along(k, slack));
         }
     }
 }
@@ -143,7 +174,8 @@ static void face_parts_make(face_job *job)
         const double slack =
             2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
         face_part *beside = &job->part[i];
-        *beside = (face_part){.low = {HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL}};
+        *beside = (face_part){.in_front = 0};
+        face_part_limit(beside, HUGE_VAL);
         beside->in_front =
             counted && outline->known &&
             lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->order_err);
@@ -153,7 +185,7 @@ static void face_parts_make(face_job *job)
             continue;
         }
         if (!lrcsi_meter_take(bands->meter, part->facet_count)) {
-            *beside = (face_part){.low = {-HUGE_VAL, -HUGE_VAL}, .high = {HUGE_VAL, HUGE_VAL}};
+            face_part_limit(beside, -HUGE_VAL);
             continue;
         }
         for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
@@ -187,11 +219,10 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
            lrcsi_edge_margin_make(bands, event, job->face.part, beside->order_err, m);
 }
 
-/* (a), and the length of the edge. */
+/* (a) */
 static int margin_fits_face(const face_job *job, const lrcsi_edge_margin *m)
 {
-    return m->length > LRCSI_EDGE_MARGIN_WIDTHS * m->width &&
-           lrcsi_face_contains(&job->face, m->a, m->width) &&
+    return lrcsi_face_contains(&job->face, m->a, m->width) &&
            lrcsi_face_contains(&job->face, m->b, m->width);
 }
 
@@ -204,11 +235,13 @@ static int margin_is_clear_of_parts(face_job *job, const lrcsi_edge_margin *m)
     const double wide = m->width + m->err;
     int clear = lrcsi_meter_take(job->bands->meter, parts);
     for (uint32_t i = 0; i < parts && clear; i++) {
-        const face_part *box = &job->part[i];
+        const face_part *part = &job->part[i];
         int apart = 0;
-        for (int k = 0; k < 2; k++) {
-            apart |= lrcsi_max(m->a[k], m->b[k]) + wide < box->low[k] ||
-                     lrcsi_min(m->a[k], m->b[k]) - wide > box->high[k];
+        for (int k = 0; k < DIRECTIONS && !apart; k++) {
+            const double a = along_direction(k, m->a);
+            const double b = along_direction(k, m->b);
+            apart = lrcsi_max(a, b) + distance_along(k, wide) < part->low[k] ||
+                    lrcsi_min(a, b) - distance_along(k, wide) > part->high[k];
         }
         clear = apart;
     }
@@ -314,9 +347,9 @@ static double edge_area(face_job *job, const lrcsi_edge_margin *m, double *error
     if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
             lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event], 0, 1);
-        const double k = m->outline->k + m->err;
-        const double err =
-            margin.error + 2 * m->err * margin.width + 4 * k * k * (turn[0] + turn[1]);
+        const double err = margin.error + 2 * m->err * margin.width +
+                           lrcsi_edge_margin_end(m, margin.end_depth[0], turn[0]) +
+                           lrcsi_edge_margin_end(m, margin.end_depth[1], turn[1]);
         if (err < *error) {
             *error = err;
             area = margin.area;

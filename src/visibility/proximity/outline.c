@@ -36,8 +36,15 @@
    largest depths are values of these at the ends of their pieces.
 
    3. Signed area. The depth of the boundary of K is a convex function of t, where K reaches over
-   the edge by 2 k at both ends. So it lies between the polygon and the tangents of 2, and its
-   integral over any part of 0 <= t <= L between the integrals of these two.
+   the edge by 2 k at both ends. So it lies between the polygon and the tangents of 2: its integral
+   over any part of 0 <= t <= L lies between the integrals of these two, and its magnitude at any t
+   is at most the larger one of theirs.
+   Between two support points that lie, with all others between them, on one circle, the boundary of
+   K is an affine image of an arc of angle theta. The area between it and its chord is the fraction
+       r = (theta - sin theta) / (2 tan(theta/2) - sin theta)
+   of the triangle that the chord forms with the two tangents, as for the arc itself. With x =
+   theta/2, r = (x - sin x cos x) / (tan x sin^2 x) falls from 2/3 at 0: it is at least 2/3 -
+   theta^2/24 for theta <= 0.5. It is exactly 2/3 on a parabola (Archimedes).
 
    The points q_j are support points: those of B that are farthest in a direction of the view plane.
    Their tangents are perpendicular to that direction. Here these directions are turned from the
@@ -52,16 +59,22 @@
 #include "scene/proximity.h"
 #include "view/separation.h"
 
-/* The number of support points on either side of the one in the direction of the edge's normal.
-   Heuristic: any number gives bounds, more of them narrower ones. */
-#define POINTS_SIDE 4
-/* The same for signed areas, of which the error falls with the square of this number: first the
-   smaller one, and then, if it leaves more of the error than this, the larger one. */
-#define MARGIN_POINTS_SIDE  8
-#define MARGIN_POINTS_MOST  32
-#define MARGIN_ERR_FRACTION 0x1p-10
-/* Steps of the bisection for the largest slope; heuristic likewise. */
-#define BISECTIONS 20
+/* The number of support points along an edge for upper bounds of areas. Heuristic: any number gives
+   bounds, more of them narrower ones. */
+#define AREA_POINTS 9
+/* The same for signed areas: first the smaller one, then more up to the larger one, until this
+   fraction of the largest error is left. */
+#define MARGIN_POINTS       5
+#define MARGIN_POINTS_MOST  40
+#define MARGIN_ERR_FRACTION 0x1p-13
+/* Arcs of larger angles, rad, are treated as unknown curves. */
+#define ARC_ANGLE_MAX 0.5
+/* Steps of the bisection for the largest slope. It ends when the support point is known to this
+   fraction of the edge's length, and depths to this fraction of the Hausdorff distance; heuristics
+   likewise. */
+#define BISECTIONS         20
+#define REACHING_ERR       0x1p-6
+#define REACHING_SLOPE_ERR 0x1p-4
 /* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
    about so short an edge, 4 k longer, is hardly smaller than the rectangle. */
 #define LENGTH_MIN 8.0
@@ -174,9 +187,11 @@ typedef struct outline_edge {
     double from, to;
 } outline_edge;
 
-/* A support point: coordinates t and depth, and the slope of its tangent. */
+/* A support point: coordinates t and depth, and the slope of its tangent; the direction in which it
+   is farthest, and its position, in the frame of the part. */
 typedef struct outline_point {
     double t, depth, slope;
+    double n[3], x[3];
 } outline_point;
 
 /* The point of the true solid that is farthest in the direction outward + slope along of the view
@@ -186,36 +201,43 @@ static outline_point outline_point_at(const outline_edge *edge, double slope)
     const lrcsi_outline *o = edge->outline;
     const double w[2] = {edge->outward[0] + slope * edge->along[0],
                          edge->outward[1] + slope * edge->along[1]};
-    double n[3];
-    double x[3];
+    outline_point point = {.slope = slope};
     double off[2];
     for (int k = 0; k < 3; k++) {
-        n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
+        point.n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
     }
-    lrcsi_support_point(&o->solid, n, x);
+    lrcsi_support_point(&o->solid, point.n, point.x);
     for (int i = 0; i < 2; i++) {
-        off[i] = o->centre[i] + x[0] * o->axis[0][i] + x[1] * o->axis[1][i] + x[2] * o->axis[2][i];
-        off[i] -= edge->a[i];
+        off[i] = o->centre[i] - edge->a[i];
+        for (int k = 0; k < 3; k++) {
+            off[i] += point.x[k] * o->axis[k][i];
+        }
     }
-    return (outline_point){edge->along[0] * off[0] + edge->along[1] * off[1],
-                           -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), slope};
+    point.t = edge->along[0] * off[0] + edge->along[1] * off[1];
+    point.depth = -(edge->outward[0] * off[0] + edge->outward[1] * off[1]);
+    return point;
 }
 
 /* The slope, 0 .. 1 towards the given side (1: towards b), at which the support point is as far as
-   t along the edge; 1 if it is not that far for any of these. */
+   t along the edge, and not much farther; 1 if it is not that far for any of these. */
 static double slope_reaching(const outline_edge *edge, int side, double t)
 {
+    const double err = REACHING_ERR * edge->length;
+    const double slope_err = REACHING_SLOPE_ERR * edge->outline->k / edge->length;
     double low = 0;
     double high = 1;
+    double over = HUGE_VAL; /* how far the point is beyond t at the slope `high` */
     if (side * outline_point_at(edge, 0).t >= side * t) {
         return 0;
     }
-    for (int i = 0; i < BISECTIONS; i++) {
+    for (int i = 0; i < BISECTIONS && (over > err || high - low > slope_err); i++) {
         /* Slopes range over many magnitudes: the first steps use the geometric mean, with 1e-6 in
            the place of 0. A heuristic: any slope serves, and a better one gives narrower bounds. */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
-        if (side * outline_point_at(edge, side * middle).t >= side * t) {
+        double beyond = side * (outline_point_at(edge, side * middle).t - t);
+        if (beyond >= 0) {
             high = middle;
+            over = beyond;
         } else {
             low = middle;
         }
@@ -243,7 +265,7 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
     const double ab[2] = {b[0] - a[0], b[1] - a[1]};
     *edge = (outline_edge){.outline = o, .a = a};
     edge->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!o->known || side == 0 || !(edge->length > LENGTH_MIN * o->k)) {
+    if (!o->known || side == 0 || !(edge->length > 0)) {
         return 0;
     }
     edge->along[0] = ab[0] / edge->length;
@@ -256,28 +278,110 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
 }
 
 /* Along an edge: the areas between it and the polygon, and the tangents, and the largest depths of
-   these, or 0 (2); the integrals of these two over the edge (3). */
+   these, or 0 (2); the signed area with its error, and the largest magnitudes of depths near the
+   ends of the edge (3). */
 typedef struct outline_sums {
-    double gain, loss, gain_depth, loss_depth, polygon, tangents;
+    double gain, loss, gain_depth, loss_depth;
+    double area, error;
+    double end_depth[2];
 } outline_sums;
 
-/* Adds what lies between support points p and q. Returns 0 if the polygon is too steep. */
-static int sums_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
-                    outline_sums *sums)
+/* The larger of `most` and the largest magnitude between low and high of a linear function, given
+   its value at t = at. */
+static double linear_most(double at, double value, double slope, double low, double high,
+                          double most)
+{
+    return low <= high ? lrcsi_max(most, lrcsi_max(fabs(value + slope * (low - at)),
+                                                   fabs(value + slope * (high - at))))
+                       : most;
+}
+
+/* What lies between support points p and q: the slope of the polygon, and where the two tangents
+   intersect. */
+typedef struct outline_piece {
+    const outline_point *p, *q;
+    double chord, meet;
+} outline_piece;
+
+/* The slope of the polygon is between those of the tangents: where rounding of nearly the same
+   positions gives another, the nearest of these leaves the depths as accurate as they are. */
+static outline_piece outline_piece_make(const outline_point *p, const outline_point *q)
+{
+    outline_piece piece = {p, q, p->slope, p->t};
+    const double turn = q->slope - p->slope;
+    if (q->t > p->t) {
+        const double chord = (q->depth - p->depth) / (q->t - p->t);
+        piece.chord = lrcsi_min(q->slope, lrcsi_max(p->slope, chord));
+    }
+    if (turn > 0) {
+        const double meet = (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn;
+        piece.meet = lrcsi_min(q->t, lrcsi_max(p->t, meet));
+    }
+    return piece;
+}
+
+/* Adds the depths near the ends of the edge. */
+static void ends_add(const outline_edge *edge, const outline_piece *piece, outline_sums *sums)
+{
+    const outline_point *p = piece->p;
+    const outline_point *q = piece->q;
+    for (int end = 0; end < 2; end++) {
+        const double middle = end == 0 ? 0 : edge->length;
+        const double low = lrcsi_max(p->t, middle - 2 * edge->outline->k);
+        const double high = lrcsi_min(q->t, middle + 2 * edge->outline->k);
+        const double meet = piece->meet;
+        double most = sums->end_depth[end];
+        most = linear_most(p->t, p->depth, piece->chord, low, high, most);
+        most = linear_most(p->t, p->depth, p->slope, low, lrcsi_min(meet, high), most);
+        most = linear_most(q->t, q->depth, q->slope, lrcsi_max(meet, low), high, most);
+        sums->end_depth[end] = most;
+    }
+}
+
+/* The signed area over the given part of the edge, in the piece; its error. */
+typedef struct piece_area {
+    double area, error;
+} piece_area;
+
+/* The area of the polygon, less a fraction of what lies between polygon and tangents. */
+static piece_area piece_area_make(const outline_edge *edge, const outline_piece *piece)
+{
+    const outline_point *p = piece->p;
+    const outline_point *q = piece->q;
+    const double from = lrcsi_max(p->t, edge->from);
+    const double to = lrcsi_min(q->t, edge->to);
+    if (!(to > from)) {
+        return (piece_area){0, 0};
+    }
+    const double meet = lrcsi_min(to, lrcsi_max(from, piece->meet));
+    const double polygon = (to - from) * (p->depth + piece->chord * (0.5 * (from + to) - p->t));
+    const double tangents = (meet - from) * (p->depth + p->slope * (0.5 * (from + meet) - p->t)) +
+                            (to - meet) * (q->depth + q->slope * (0.5 * (meet + to) - q->t));
+    double fraction = 0.5;
+    double fraction_err = 0.5;
+    if (from == p->t && to == q->t) {
+        const double angle = lrcsi_support_arc(&edge->outline->solid, p->n, p->x, q->n, q->x);
+        if (angle <= ARC_ANGLE_MAX) {
+            fraction_err = angle * angle / 48;
+            fraction = 2.0 / 3 - fraction_err;
+        }
+    }
+    return (piece_area){polygon - fraction * (polygon - tangents),
+                        fraction_err * lrcsi_max(0, polygon - tangents)};
+}
+
+/* Adds what lies between support points p and q. */
+static void sums_add(const outline_edge *edge, const outline_point *p, const outline_point *q,
+                     outline_sums *sums)
 {
     const double beyond = 2 * edge->outline->k;
     const double low = lrcsi_max(p->t, -beyond);
     const double high = lrcsi_min(q->t, edge->length + beyond);
     if (!(high > low)) {
-        return 1;
+        return;
     }
-    const double chord = (q->depth - p->depth) / (q->t - p->t);
-    if (!(fabs(chord) <= 1)) { /* all tangents are less steep */
-        return 0;
-    }
-    const double turn = q->slope - p->slope;
-    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
-    meet = lrcsi_min(high, lrcsi_max(low, meet));
+    const outline_piece piece = outline_piece_make(p, q);
+    const double meet = lrcsi_min(high, lrcsi_max(low, piece.meet));
     const double from_p[2] = {-(p->depth + p->slope * (low - p->t)),
                               -(p->depth + p->slope * (meet - p->t))};
     const double to_q[2] = {-(q->depth + q->slope * (meet - q->t)),
@@ -286,42 +390,79 @@ static int sums_add(const outline_edge *edge, const outline_point *p, const outl
     sums->loss += integral_positive(meet, high, to_q[0], to_q[1]);
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(from_p[0], from_p[1]));
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(to_q[0], to_q[1]));
+    ends_add(edge, &piece, sums);
     const double from = lrcsi_max(p->t, edge->from);
     const double to = lrcsi_min(q->t, edge->to);
     if (to > from) {
-        const double at_from = p->depth + chord * (from - p->t);
-        const double at_to = p->depth + chord * (to - p->t);
-        meet = lrcsi_min(to, lrcsi_max(from, meet));
+        const double at_from = p->depth + piece.chord * (from - p->t);
+        const double at_to = p->depth + piece.chord * (to - p->t);
+        const piece_area area = piece_area_make(edge, &piece);
         sums->gain += integral_positive(from, to, at_from, at_to);
         sums->gain_depth = lrcsi_max(sums->gain_depth, lrcsi_max(at_from, at_to));
-        sums->polygon += 0.5 * (to - from) * (at_from + at_to);
-        sums->tangents += (meet - from) * (p->depth + p->slope * (0.5 * (from + meet) - p->t));
-        sums->tangents += (to - meet) * (q->depth + q->slope * (0.5 * (meet + to) - q->t));
+        sums->area += area.area;
+        sums->error += area.error;
     }
-    return 1;
 }
 
-/* Adds up along the whole edge, with this many support points on either side of the one in the
-   direction of its normal. Returns 0 if the outline ends there, or is too steep. */
-static int outline_sums_make(const outline_edge *edge, int per_side, outline_sums *sums)
+/* Finds `count` support points along the whole edge, their slopes evenly spaced. Returns 0 if the
+   outline ends before an end of the edge, or is too steep there. */
+static int outline_points_make(const outline_edge *edge, int count, outline_point *point)
 {
     const double beyond = 2 * edge->outline->k;
-    const double before = slope_reaching(edge, -1, -beyond);
+    const double before = -slope_reaching(edge, -1, -beyond);
     const double after = slope_reaching(edge, 1, edge->length + beyond);
-    outline_point last = outline_point_at(edge, -before);
-    *sums = (outline_sums){.gain = 0};
-    if (last.t > -beyond) {
-        return 0;
+    for (int i = 0; i < count; i++) {
+        const double part = (double)i / (count - 1);
+        point[i] = outline_point_at(edge, before * (1 - part) + after * part);
     }
-    for (int i = 1; i <= 2 * per_side; i++) {
-        const double steps = (double)i / per_side - 1; /* -1 .. 1 */
-        const outline_point next = outline_point_at(edge, steps * (steps < 0 ? before : after));
-        if (!sums_add(edge, &last, &next, sums)) {
-            return 0;
+    return point[0].t <= -beyond && point[count - 1].t >= edge->length + beyond;
+}
+
+static outline_sums outline_sums_make(const outline_edge *edge, const outline_point *point,
+                                      int count)
+{
+    outline_sums sums = {.gain = 0};
+    for (int i = 1; i < count; i++) {
+        sums_add(edge, &point[i - 1], &point[i], &sums);
+    }
+    return sums;
+}
+
+/* Adds support points, each in the piece with the largest error of its area, at the mean of its two
+   slopes, until the errors add up to `enough` or there are MARGIN_POINTS_MOST. Returns their
+   number. Arcs that end at an end of the given part of the edge, or at a corner of the outline, are
+   found in this way. */
+static int outline_points_add(const outline_edge *edge, double enough, outline_point *point,
+                              int count)
+{
+    double error[MARGIN_POINTS_MOST]; /* of the piece that begins at each point */
+    for (int i = 0; i + 1 < count; i++) {
+        const outline_piece piece = outline_piece_make(&point[i], &point[i + 1]);
+        error[i] = piece_area_make(edge, &piece).error;
+    }
+    while (count < MARGIN_POINTS_MOST) {
+        double sum = 0;
+        int worst = 0;
+        for (int i = 0; i + 1 < count; i++) {
+            sum += error[i];
+            worst = error[i] > error[worst] ? i : worst;
         }
-        last = next;
+        if (!(sum > enough)) {
+            break;
+        }
+        for (int i = count; i > worst + 1; i--) {
+            point[i] = point[i - 1];
+            error[i] = error[i - 1];
+        }
+        count++;
+        point[worst + 1] =
+            outline_point_at(edge, 0.5 * (point[worst].slope + point[worst + 2].slope));
+        for (int i = worst; i < worst + 2; i++) {
+            const outline_piece piece = outline_piece_make(&point[i], &point[i + 1]);
+            error[i] = piece_area_make(edge, &piece).error;
+        }
     }
-    return last.t >= edge->length + beyond;
+    return count;
 }
 
 /* More than sqrt(2) times the length along which the outline is followed. */
@@ -340,10 +481,12 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
                                              const double b[3], int side)
 {
     outline_edge edge;
-    outline_sums sums;
-    if (!outline_edge_make(o, a, b, side, &edge) || !outline_sums_make(&edge, POINTS_SIDE, &sums)) {
+    outline_point point[AREA_POINTS];
+    if (!outline_edge_make(o, a, b, side, &edge) || !(edge.length > LENGTH_MIN * o->k) ||
+        !outline_points_make(&edge, AREA_POINTS, point)) {
         return (lrcsi_outline_areas){HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, 0};
     }
+    const outline_sums sums = outline_sums_make(&edge, point, AREA_POINTS);
     const double width = outline_width(&edge);
     const double err = depth_err(o, a, b);
     return (lrcsi_outline_areas){(sums.gain + err * width) * LRCSI_OUTWARD_SUM,
@@ -352,30 +495,31 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
                                  (sums.loss_depth + err) * LRCSI_OUTWARD_SUM, width};
 }
 
-/* Half of what lies between the polygon and the tangents. */
-static double sums_between(const outline_sums *sums)
-{
-    return 0.5 * lrcsi_max(0, sums->polygon - sums->tangents);
-}
-
 lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const double a[3],
                                                const double b[3], int side, double from, double to)
 {
     outline_edge edge;
-    outline_sums sums;
+    outline_point point[MARGIN_POINTS_MOST];
     int known = outline_edge_make(o, a, b, side, &edge);
     edge.from = from * edge.length;
     edge.to = to * edge.length;
-    if (!known || !outline_sums_make(&edge, MARGIN_POINTS_SIDE, &sums)) {
-        return (lrcsi_outline_margin){0, HUGE_VAL, 0};
+    if (!known || !outline_points_make(&edge, MARGIN_POINTS, point)) {
+        return (lrcsi_outline_margin){.error = HUGE_VAL};
     }
     const double width = outline_width(&edge);
-    const double err = depth_err(o, a, b) * width;
-    outline_sums closer;
-    if (sums_between(&sums) > lrcsi_max(err, MARGIN_ERR_FRACTION * (sums.gain + sums.loss)) &&
-        outline_sums_make(&edge, MARGIN_POINTS_MOST, &closer)) {
-        sums = closer;
+    const double err_depth = depth_err(o, a, b);
+    const double err = err_depth * width;
+    outline_sums sums = outline_sums_make(&edge, point, MARGIN_POINTS);
+    const double enough = lrcsi_max(err, MARGIN_ERR_FRACTION * (sums.gain + sums.loss));
+    if (sums.error > enough) {
+        const int count = outline_points_add(&edge, enough, point, MARGIN_POINTS);
+        sums = outline_sums_make(&edge, point, count);
     }
-    return (lrcsi_outline_margin){0.5 * (sums.polygon + sums.tangents),
-                                  (sums_between(&sums) + err) * LRCSI_OUTWARD_SUM, width};
+    return (lrcsi_outline_margin){sums.area,
+                                  (sums.error + err) * LRCSI_OUTWARD_SUM,
+                                  width,
+                                  (sums.gain_depth + sums.loss_depth + 2 * err_depth) *
+                                      LRCSI_OUTWARD_SUM,
+                                  {(sums.end_depth[0] + err_depth) * LRCSI_OUTWARD_SUM,
+                                   (sums.end_depth[1] + err_depth) * LRCSI_OUTWARD_SUM}};
 }

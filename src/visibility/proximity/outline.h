@@ -58,8 +58,13 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *outline, const
 /* The signed area in projection between such an edge, or a part of it, and the outline of the true
    solid over it: positive where the facets reach farther than the solid. */
 typedef struct lrcsi_outline_margin {
-    double area, error; /* infinite error: not known */
-    double width;       /* times an error of the outline's position: to be added to the error */
+    double area, error;  /* infinite error: not known */
+    double width;        /* times an error of the outline's position: to be added to the error */
+    double depth;        /* an upper bound of the difference of the largest and the least depth of
+                           the outline beside that part, or of 0 */
+    double end_depth[2]; /* upper bounds of the distance between outline and edge in projection, up
+                            to 2 k before and behind the ends a and b; if a part is given, they may
+                            be much larger than for the whole edge */
 } lrcsi_outline_margin;
 
 /* Given: as above; the part of the edge, as fractions of the way from a to b: from L <= t <= to L

@@ -37,7 +37,8 @@
    attributed to the facet that contains that part of the edge: its signed area follows from
    visibility/proximity/outline.c, 3. The second are within sqrt(2) delta of the boundary of K in
    depth: of each facet no more than that times the length of the edge along which the facet is
-   near. Beyond the ends of the edge, points are attributed as in face_margin.c.
+   near. Beyond the ends of the edge, points are attributed as in face_margin.c,
+   D being larger by sqrt(2) delta.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
    It is tested that these are within one row and one sector of it, or on the same plane face, their
@@ -433,7 +434,7 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 
 /* --- margins ---------------------------------------------------------------------------------- */
 
-/* Adds the part of the margins on a facet. Its area is known to within: the bounds of outline.c and
+/* Adds the part of the margins on a facet: its area, with the depths of the whole edge. The area is known to within: the bounds of outline.c and
    errors of positions; where the part of the edge in it ends; the points at the ends of the edge;
    what the same area of the view plane stands for on other facets; the displacement of points. The
    strips that displacement adds and removes have opposite signs: the larger one counts. */
@@ -441,13 +442,18 @@ static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
                              const lrcsi_outline_margin *margin, const double turn[2],
                              const lrcsi_margin_facet *one)
 {
-    const lrcsi_outline_areas *areas = &job->bands->areas[m->event];
-    const double depth = areas->gain_depth + areas->loss_depth;
+    const double depth = margin->depth;
     const double part = lrcsi_max(0, one->outer.to - one->outer.from);
     const double near = lrcsi_max(0, one->near[1] - one->near[0]);
     const double k = m->outline->k + m->err;
-    double ends = one->near[0] < 2 * k ? 4 * k * k * turn[0] : 0;
-    ends += one->near[1] > m->length - 2 * k ? 4 * k * k * turn[1] : 0;
+    const double wider = LRCSI_ROOT_2_OUTWARD * one->lateral;
+    double ends = 0;
+    if (one->near[0] < 2 * k) {
+        ends += lrcsi_edge_margin_end(m, margin->end_depth[0] + wider, turn[0]);
+    }
+    if (one->near[1] > m->length - 2 * k) {
+        ends += lrcsi_edge_margin_end(m, margin->end_depth[1] + wider, turn[1]);
+    }
     lrcsi_wall_margin *to = &job->margin[one->facet];
     to->area += margin->area;
     to->area_err += 2 * LRCSI_U * fabs(to->area); /* of the addition */
@@ -465,16 +471,22 @@ static int margin_facets_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
                              const double turn[2])
 {
     const int side = job->bands->events.side[m->event];
-    const lrcsi_outline_margin none = {0, 0, 0};
+    const lrcsi_outline_margin whole =
+        lrcsi_outline_margin_make(m->outline, m->a, m->b, side, 0, 1);
+    if (!isfinite(whole.error)) {
+        return 0;
+    }
     for (uint32_t i = 0; i < job->facet_count; i++) {
         const lrcsi_margin_facet *one = &job->facet[i];
-        lrcsi_outline_margin margin = none;
-        if (one->in.from < one->in.to) {
-            margin =
+        lrcsi_outline_margin margin = whole;
+        if (!(one->in.from < one->in.to)) {
+            margin.area = margin.error = margin.width = 0;
+        } else if (one->in.from > 0 || one->in.to < 1) {
+            const lrcsi_outline_margin part =
                 lrcsi_outline_margin_make(m->outline, m->a, m->b, side, one->in.from, one->in.to);
-        }
-        if (!isfinite(margin.error)) {
-            return 0; /* then it is so for the first one that is made */
+            margin.area = part.area;
+            margin.error = part.error;
+            margin.width = part.width;
         }
         margin_facet_add(job, m, &margin, turn, one);
     }
@@ -489,9 +501,7 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
     const lrcsi_margin_receiver receiver = {part, facet, NULL, 0};
     lrcsi_edge_margin m;
     double turn[2];
-    if (!lrcsi_edge_margin_make(bands, event, part, 0, &m) ||
-        !(m.length > LRCSI_EDGE_MARGIN_WIDTHS * m.width) ||
-        !isfinite(bands->areas[event].gain_depth) || !margin_facets_find(job, &m, facet) ||
+    if (!lrcsi_edge_margin_make(bands, event, part, 0, &m) || !margin_facets_find(job, &m, facet) ||
         !margin_facets_are_local(job, &m) ||
         !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
         return 0;
