@@ -122,6 +122,35 @@ static void margins_of_a_ball_above_a_disc_have_their_sign(void **state)
     }
 }
 
+/* (d): one of the ball's edges is so short that the edges which follow it come near those before it.
+   They have margins all the same. */
+static void margins_of_short_edges(void **state)
+{
+    (void)state;
+    const double from[3] = {0.1, 0, 1};
+    lrcs_recipe_part part[2] = {part_at(disc, 0, 0, 0), part_at(ball_of(0.3), 0, 0, 0.4)};
+    find_margins(part, 2, 1e-4, from, NULL);
+    const double k = bands.orders.outline[CASTER].k;
+    double shortest = HUGE_VAL;
+    double length = 0;
+    uint32_t edges = 0;
+    for (uint32_t i = 0; i < bands.events.count; i++) {
+        if (bands.events.part[i] == CASTER) {
+            const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[i]];
+            const double *a = view.point[edge->low].x;
+            const double *b = view.point[edge->high].x;
+            const double across = hypot(b[0] - a[0], b[1] - a[1]);
+            shortest = fmin(shortest, across);
+            length += across;
+            edges++;
+        }
+    }
+    check_most(shortest, 2 * k);
+    assert_int_equal(edges_on_face(CASTER), edges);
+    check_abs(face[FACE].area, polygon_beyond_circle(0.3), face[FACE].error);
+    check_most(face[FACE].error, 0.01 * length * k);
+}
+
 static void check_without_signs(lrcs_recipe_part *part, uint32_t count, const double d[3])
 {
     double least = 0;
@@ -254,7 +283,7 @@ static void margins_on_faces_one_behind_the_other(void **state)
     upper.radius = 0.8;
     lrcs_recipe_part part[4] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
                                 part_at(upper, 0, 0, 0), part_at(disc, 0, 0, -1)};
-    find_margins(part, 4, 3e-4, oblique, NULL);
+    find_margins(part, 4, 1e-3, oblique, NULL);
     const uint32_t edges = edges_on_face(CASTER);
     uint32_t all = 0;
     uint32_t both = 0;
@@ -340,6 +369,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_above_a_disc_have_their_sign),
+        cmocka_unit_test(margins_of_short_edges),
         cmocka_unit_test(not_beside_the_side_of_the_face),
         cmocka_unit_test(not_of_a_part_that_pierces_the_plane),
         cmocka_unit_test(not_beside_an_edge_of_another_part),
