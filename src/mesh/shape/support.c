@@ -9,10 +9,10 @@
 
 #include "base/range.h"
 
-/* With r the component of a direction across the axis and z that along it, where z > c r the support
-   point is on the upper part of the solid: its round wall, upper circle or apex; else it is on the
-   base's circle. Here c is 0 for a dome or cylinder, positive where the solid narrows upwards,
-   negative where it widens. A sphere is all round. */
+/* Let r be the component of a direction across the axis, and z that along it. Where z > c r, the
+   support point is on the upper part of the solid: its round wall, upper circle or apex; else it is
+   on the base's circle. Here c is 0 for a dome or cylinder, positive where the solid narrows
+   upwards, negative where it widens. A sphere is all round. */
 static int is_on_upper_part(const lrcsi_support *s, double r, double z)
 {
     switch (s->kind) {

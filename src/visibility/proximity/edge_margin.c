@@ -9,8 +9,8 @@
 #include "base/outward.h"
 #include "base/range.h"
 
-/* The sine of the largest angle between an edge and those that follow it: below that of 0.5. One below
-   0.5 is at most 1.05 times its sine. */
+/* The sine of the largest angle between an edge and those that follow it: below that of 0.5. An
+   angle below 0.5 is at most 1.05 times its sine. */
 #define TURN_SINE_MAX   0.47
 #define ANGLE_OVER_SINE 1.05
 /* The tangent of an angle below 0.5 is at most 1.1 times the angle. */
@@ -138,9 +138,9 @@ static uint32_t far_end(const lrcsi_edge *edge, uint32_t at)
     return edge->low == at ? edge->high : edge->high == at ? edge->low : LRCS_NONE;
 }
 
-/* Follows the event edges of Q that lead away from the end a (0) or b (1) of an edge, until one ends
-   farther than w from there. Returns the largest angle between them and the edge; a negative number
-   if they do not lead away so far, or another one begins where one of them does. */
+/* Follows the event edges of Q that lead away from the end a (0) or b (1) of an edge, until one
+   ends farther than w from there. Returns the largest angle between them and the edge; a negative
+   number if they do not lead away so far, or another one begins where one of them does. */
 static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *bands, int end,
                          edge_chain *chain)
 {

@@ -27,10 +27,10 @@
    If that point is visible, so are all points of N beyond the edge, and those on its other side are
    hidden by Q alone, as far as the facets decide it: by (c) and (e) no other part begins or ceases
    to hide anything there, and by (d) the facets of Q do so only at the edge and, beyond the
-   perpendiculars at its ends, at the edges that follow it. In truth no other part hides anything either, and Q
-   hides the points of K. If the point is hidden, it is hidden by a part other than Q, whose outline
-   ends at the edge, and P, which is convex. By (c) and (e) that part hides all of N, in truth and
-   for the facets: the difference is 0.
+   perpendiculars at its ends, at the edges that follow it. In truth no other part hides anything
+   either, and Q hides the points of K. If the point is hidden, it is hidden by a part other than Q,
+   whose outline ends at the edge, and P, which is convex. By (c) and (e) that part hides all of N,
+   in truth and for the facets: the difference is 0.
 
    If the point is visible, K' begins at depth 0 over the edge, 0 <= t <= L in the coordinates of
    outline.c, 2, and K at a depth d(t) of at most w: K lies within k of K', and points of K' farther
@@ -60,7 +60,7 @@
 #include "visibility/proximity/edge_margin.h"
 #include "visibility/uniform/query.h"
 
-/* Directions in the view plane, at most 12 degrees apart, in which the extent of a part is known. */
+/* Directions in the view plane, at most 12 degrees apart, along which parts are measured. */
 #define DIRECTIONS 16
 static const double face_direction[DIRECTIONS][2] = {
     {1, 0}, {5, 1},  {5, 2},  {3, 2},  {1, 1},  {2, 3},  {2, 5},  {1, 5},

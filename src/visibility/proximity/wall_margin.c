@@ -15,7 +15,7 @@
    (b) a plane separates Q, in front, from P;
    (c) no event edge of a part other than Q comes within its slack of N in projection, unless its
        part is behind P; for P itself the slack is two reaches;
-   (d) of Q, only two other event edges meet N, as in face_margin.c;
+   (d) of Q, only such other event edges meet N as follow the edge, as in face_margin.c;
    (e) at these facets, (1) holds for no part that is neither in front of P nor behind it, and no
        part meets their interior in N; the fractions of facets for which rounding leaves this or (b)
        open (part_order.c) count as gained and lost;
@@ -37,8 +37,8 @@
    attributed to the facet that contains that part of the edge: its signed area follows from
    visibility/proximity/outline.c, 3. The second are within sqrt(2) delta of the boundary of K in
    depth: of each facet no more than that times the length of the edge along which the facet is
-   near. Beyond the ends of the edge, points are attributed as in face_margin.c,
-   D being larger by sqrt(2) delta.
+   near. Beyond the ends of the edge, points are attributed as in face_margin.c, D being larger by
+   sqrt(2) delta.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
    It is tested that these are within one row and one sector of it, or on the same plane face, their
@@ -434,10 +434,11 @@ static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 
 /* --- margins ---------------------------------------------------------------------------------- */
 
-/* Adds the part of the margins on a facet: its area, with the depths of the whole edge. The area is known to within: the bounds of outline.c and
-   errors of positions; where the part of the edge in it ends; the points at the ends of the edge;
-   what the same area of the view plane stands for on other facets; the displacement of points. The
-   strips that displacement adds and removes have opposite signs: the larger one counts. */
+/* Adds the part of the margins on a facet: its area, with the depths of the whole edge. The area is
+   known to within: the bounds of outline.c and errors of positions; where the part of the edge in
+   it ends; the points at the ends of the edge; what the same area of the view plane stands for on
+   other facets; the displacement of points. The strips that displacement adds and removes have
+   opposite signs: the larger one counts. */
 static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                              const lrcsi_outline_margin *margin, const double turn[2],
                              const lrcsi_margin_facet *one)
