@@ -15,6 +15,9 @@
 #define ANGLE_OVER_SINE 1.05
 /* The tangent of an angle below 0.5 is at most 1.1 times the angle. */
 #define TANGENT_OVER_ANGLE 1.1
+/* An edge is used only if it is longer than this many errors of positions: its direction is then
+   accurate enough. */
+#define LENGTH_OVER_ERR 64.0
 /* An edge with more event edges of its part near it than this is not used: heuristic. */
 #define CHAIN_MAX 16
 
@@ -45,11 +48,12 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    if (!(m->length > 0)) {
-        return 0;
-    }
     m->err = order_err + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
+    if (!(m->length > LENGTH_OVER_ERR * m->err)) {
+        return 0;
+    }
+    m->direction_err = 2 * m->err / m->length;
     for (int i = 0; i < 2; i++) {
         m->along[i] = ab[i] / m->length;
     }
@@ -60,7 +64,9 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
 
 double lrcsi_edge_margin_end(const lrcsi_edge_margin *m, double depth, double turn)
 {
-    const double deepest = lrcsi_min(2 * (m->outline->k + m->err), depth + 2 * m->err);
+    const double k = m->outline->k + m->err;
+    const double turned = 2 * k * m->direction_err; /* at a distance of 2 k from the end */
+    const double deepest = lrcsi_min(2 * k, depth + 2 * m->err + turned);
     return deepest * deepest * TANGENT_OVER_ANGLE * turn * LRCSI_OUTWARD_NANO;
 }
 
@@ -178,7 +184,7 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
         if (!((end == 0 ? -along : along) > 0) || !(across < TURN_SINE_MAX * length)) {
             return -1;
         }
-        turn = lrcsi_max(turn, ANGLE_OVER_SINE * across / length);
+        turn = lrcsi_max(turn, ANGLE_OVER_SINE * across / length + m->direction_err);
         distance = fabs((to[0] - start[0]) * m->along[0] + (to[1] - start[1]) * m->along[1]);
         at = next;
     }

@@ -17,6 +17,7 @@ typedef struct lrcsi_edge_margin {
     double order_err;  /* the distance in projection within which it is not known what is in front
                          (lrcsi_outline_in_front) */
     double err, width; /* e; w */
+    double direction_err; /* rad, in projection */
 } lrcsi_edge_margin;
 
 /* The surface behind it. */
@@ -33,7 +34,8 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
 
 /* At an end of the edge, given the turn there: an upper bound of the area of the points that are
    attributed to another edge than by the perpendicular, if points that true shapes and facets hide
-   differently are no deeper than `depth` (face_margin.c). */
+   differently are no deeper than `depth` (face_margin.c). They are also within 2 k of the contour,
+   and so no deeper than 2.28 k: the area is below 4.4 k^2 times the turn. */
 double lrcsi_edge_margin_end(const lrcsi_edge_margin *margin, double depth, double turn);
 
 /* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: A and B,

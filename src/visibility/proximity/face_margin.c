@@ -35,19 +35,21 @@
    If the point is visible, K' begins at depth 0 over the edge, 0 <= t <= L in the coordinates of
    outline.c, 2, and K at a depth d(t) of at most w: K lies within k of K', and points of K' farther
    than k from its boundary lie in K, since otherwise a straight line separates such a point from K,
-   and a point of K' is farther than k from that line. Above d(t) all points up to depth k lie in K:
-   N contains the point of K' at depth w above such a point, K a point within k of that, at depth 3
-   k or more; the line from there through a point y of depth at most k leads to the polygon of
-   outline.c within 2 k of y along the edge. So the true shapes leave visible the integral of d(t)
-   more.
+   and a point of K' is farther than k from that line. Above d(t) all points up to depth 1.2 k lie in
+   K, among them those within k of the contour: N contains the point of K' at depth w above such a
+   point, K a point within k of that, at depth 3 k or more; the line from there through a point y of
+   depth at most 1.2 k leads to the polygon of outline.c within 2 k of y along the edge. So the true
+   shapes leave visible the integral of d(t) more.
 
    Each point at which K and K' differ is attributed to the event edge of Q nearest to it. Near the
-   end a that is not decided by the perpendicular. Such a point is no deeper than D, the largest
-   |d(t)| for |t| <= 2 k, and D <= 2 k. A point inside the perpendicular, at a distance x from it,
-   that is nearer to a point of the edges that follow, r away from a at an angle of at most A to the
-   edge's direction, than to the edge, at a depth y: (x + r cos A)^2 + (y - r sin A)^2 < y^2, so
-   that x < y tan A. A point outside it to which a is the nearest point of all is at most y tan A
-   from it. Both regions have areas of at most D^2 tan(A) / 2; likewise for b. */
+   end a that is not decided by the perpendicular. Such a point is at a depth y of at most D, the
+   largest |d(t)| for |t| <= 2 k, and within k of the contour, so that y <= k / cos A. Of the points
+   inside the perpendicular, at a distance x from it, some are nearer than to the edge to a point of
+   the edges that follow, r away from a at an angle of at most A to the edge's direction:
+   (x + r cos A)^2 + (y - r sin A)^2 < y^2. As r^2 + x^2 >= 2 r x, these have x < y tan(A / 2). Of
+   the points outside it, those to which a is the nearest point of all are at most y tan A from it.
+   Both regions together have an area of at most y^2 (tan(A / 2) + tan A) / 2, below 0.81 y^2 A;
+   likewise for b. */
 #include "visibility/proximity/face_margin.h"
 
 #include <math.h>

@@ -435,7 +435,7 @@ static outline_sums outline_sums_make(const outline_edge *edge, const outline_po
 static int outline_points_add(const outline_edge *edge, double enough, outline_point *point,
                               int count)
 {
-    double error[MARGIN_POINTS_MOST]; /* of the piece that begins at each point */
+    double error[MARGIN_POINTS_MOST] = {0}; /* of the piece that begins at each point */
     for (int i = 0; i + 1 < count; i++) {
         const outline_piece piece = outline_piece_make(&point[i], &point[i + 1]);
         error[i] = piece_area_make(edge, &piece).error;
