@@ -35,7 +35,7 @@
    If the point is visible, K' begins at depth 0 over the edge, 0 <= t <= L in the coordinates of
    outline.c, 2, and K at a depth d(t) of at most w: K lies within k of K', and points of K' farther
    than k from its boundary lie in K, since otherwise a straight line separates such a point from K,
-   and a point of K' is farther than k from that line. All points of depths from d(t) to 1.2 k lie in
+   and a point of K' is farther than k from that line. All points from depth d(t) to 1.2 k lie in
    K, among them those within k of the contour: N contains the point of K' at depth w above such a
    point, K a point within k of that, at depth 3 k or more; the line from there through a point y of
    depth at most 1.2 k leads to the polygon of outline.c within 2 k of y along the edge. So the true
