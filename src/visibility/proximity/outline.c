@@ -75,8 +75,9 @@
 #define BISECTIONS         20
 #define REACHING_ERR       0x1p-6
 #define REACHING_SLOPE_ERR 0x1p-4
-/* An edge that is shorter than this many Hausdorff distances is not used. Heuristic: the region
-   about so short an edge, 4 k longer, is hardly smaller than the rectangle. */
+/* Beside an edge that is shorter than this many Hausdorff distances, upper bounds of areas are not
+   found. Heuristic: the region about so short an edge, 4 k longer, is hardly smaller than the
+   rectangle. */
 #define LENGTH_MIN 8.0
 /* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
    to some 30 u. */
