@@ -279,13 +279,17 @@ static int outline_edge_make(const lrcsi_outline *o, const double a[3], const do
 }
 
 /* Along an edge: the areas between it and the polygon, and the tangents, and the largest depths of
-   these, or 0 (2); the signed area with its error, and the largest magnitudes of depths near the
-   ends of the edge (3). */
+   these, or 0 (2). */
 typedef struct outline_sums {
     double gain, loss, gain_depth, loss_depth;
+} outline_sums;
+
+/* The signed area with its error, and the largest magnitudes of depths near the ends of the edge
+   (3). */
+typedef struct outline_signed {
     double area, error;
     double end_depth[2];
-} outline_sums;
+} outline_signed;
 
 /* The larger of `most` and the largest magnitude between low and high of a linear function, given
    its value at t = at. */
@@ -322,7 +326,7 @@ static outline_piece outline_piece_make(const outline_point *p, const outline_po
 }
 
 /* Adds the depths near the ends of the edge. */
-static void ends_add(const outline_edge *edge, const outline_piece *piece, outline_sums *sums)
+static void ends_add(const outline_edge *edge, const outline_piece *piece, outline_signed *sums)
 {
     const outline_point *p = piece->p;
     const outline_point *q = piece->q;
@@ -391,17 +395,13 @@ static void sums_add(const outline_edge *edge, const outline_point *p, const out
     sums->loss += integral_positive(meet, high, to_q[0], to_q[1]);
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(from_p[0], from_p[1]));
     sums->loss_depth = lrcsi_max(sums->loss_depth, lrcsi_max(to_q[0], to_q[1]));
-    ends_add(edge, &piece, sums);
     const double from = lrcsi_max(p->t, edge->from);
     const double to = lrcsi_min(q->t, edge->to);
     if (to > from) {
         const double at_from = p->depth + piece.chord * (from - p->t);
         const double at_to = p->depth + piece.chord * (to - p->t);
-        const piece_area area = piece_area_make(edge, &piece);
         sums->gain += integral_positive(from, to, at_from, at_to);
         sums->gain_depth = lrcsi_max(sums->gain_depth, lrcsi_max(at_from, at_to));
-        sums->area += area.area;
-        sums->error += area.error;
     }
 }
 
@@ -425,6 +425,20 @@ static outline_sums outline_sums_make(const outline_edge *edge, const outline_po
     outline_sums sums = {.gain = 0};
     for (int i = 1; i < count; i++) {
         sums_add(edge, &point[i - 1], &point[i], &sums);
+    }
+    return sums;
+}
+
+static outline_signed outline_signed_make(const outline_edge *edge, const outline_point *point,
+                                          int count)
+{
+    outline_signed sums = {.area = 0};
+    for (int i = 1; i < count; i++) {
+        const outline_piece piece = outline_piece_make(&point[i - 1], &point[i]);
+        const piece_area area = piece_area_make(edge, &piece);
+        sums.area += area.area;
+        sums.error += area.error;
+        ends_add(edge, &piece, &sums);
     }
     return sums;
 }
@@ -512,15 +526,16 @@ lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const dou
     const double err = err_depth * width;
     outline_sums sums = outline_sums_make(&edge, point, MARGIN_POINTS);
     const double enough = lrcsi_max(err, MARGIN_ERR_FRACTION * (sums.gain + sums.loss));
-    if (sums.error > enough) {
-        const int count = outline_points_add(&edge, enough, point, MARGIN_POINTS);
+    const int count = outline_points_add(&edge, enough, point, MARGIN_POINTS);
+    if (count > MARGIN_POINTS) {
         sums = outline_sums_make(&edge, point, count);
     }
-    return (lrcsi_outline_margin){sums.area,
-                                  (sums.error + err) * LRCSI_OUTWARD_SUM,
+    const outline_signed found = outline_signed_make(&edge, point, count);
+    return (lrcsi_outline_margin){found.area,
+                                  (found.error + err) * LRCSI_OUTWARD_SUM,
                                   width,
                                   (sums.gain_depth + sums.loss_depth + 2 * err_depth) *
                                       LRCSI_OUTWARD_SUM,
-                                  {(sums.end_depth[0] + err_depth) * LRCSI_OUTWARD_SUM,
-                                   (sums.end_depth[1] + err_depth) * LRCSI_OUTWARD_SUM}};
+                                  {(found.end_depth[0] + err_depth) * LRCSI_OUTWARD_SUM,
+                                   (found.end_depth[1] + err_depth) * LRCSI_OUTWARD_SUM}};
 }
