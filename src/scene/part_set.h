@@ -20,4 +20,13 @@ static inline lrcsi_part_set lrcsi_part_set_without(lrcsi_part_set set, uint32_t
     return part < LRCSI_PART_SET_SINGLE ? set & ~lrcsi_part_set_of(part) : set;
 }
 
+/* Adds a part. Returns 0 if it was in the set before; 1 if it was not, or if that is not known. */
+static inline int lrcsi_part_set_add(lrcsi_part_set *set, uint32_t part)
+{
+    const lrcsi_part_set one = lrcsi_part_set_of(part);
+    const int had = part < LRCSI_PART_SET_SINGLE && (*set & one) != 0;
+    *set |= one;
+    return !had;
+}
+
 #endif

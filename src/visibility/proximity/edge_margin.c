@@ -18,8 +18,10 @@
 /* An edge is used only if it is longer than this many errors of positions: its direction is then
    accurate enough. */
 #define LENGTH_OVER_ERR 64.0
-/* An edge with more event edges of its part near it than this is not used: heuristic. */
+/* No more event edges than this may follow an edge: heuristic. */
 #define CHAIN_MAX 16
+/* A part of an edge is used only if it is longer than this many times w: heuristic. */
+#define PART_LENGTH_MIN 2.0
 
 /* The errors of both ends of an edge, for points anywhere near it. */
 static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
@@ -39,12 +41,14 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
                              .part = part,
                              .edge = edge,
                              .outline = &bands->orders.outline[part],
-                             .a = view->point[edge->low].x,
-                             .b = view->point[edge->high].x,
                              .order_err = order_err};
     if (part == receiver || side == 0 || !m->outline->known ||
         lrcsi_event_rim_is_inside(bands, event)) {
         return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        m->a[k] = view->point[edge->low].x[k];
+        m->b[k] = view->point[edge->high].x[k];
     }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
@@ -60,6 +64,41 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
     m->outward[0] = side * m->along[1];
     m->outward[1] = -side * m->along[0];
     return 1;
+}
+
+/* The fraction of an edge that is w long, errors included. */
+static double width_fraction(const lrcsi_edge_margin *m)
+{
+    return (m->width + m->err) / m->length * LRCSI_OUTWARD_NANO;
+}
+
+int lrcsi_edge_margin_part(const lrcsi_edge_margin *edge, const lrcsi_edge_gaps *gaps, int i,
+                           const double turn[2], lrcsi_edge_part *part)
+{
+    const double wide = width_fraction(edge);
+    lrcsi_segment_part of = lrcsi_edge_gaps_before(gaps, i);
+    *part = (lrcsi_edge_part){of, *edge, {turn[0], turn[1]}};
+    if (of.from <= 0 && of.to >= 1) {
+        return 1;
+    }
+    if (of.from > 0) {
+        of.from = lrcsi_max(of.from, wide);
+        part->turn[0] = 0;
+    }
+    if (of.to < 1) {
+        of.to = lrcsi_min(of.to, 1 - wide);
+        part->turn[1] = 0;
+    }
+    lrcsi_edge_margin *m = &part->margin;
+    part->of = of;
+    m->length = (of.to - of.from) * edge->length;
+    m->direction_err = 2 * m->err / m->length;
+    for (int k = 0; k < 3; k++) {
+        const double ab = edge->b[k] - edge->a[k];
+        m->a[k] = edge->a[k] + of.from * ab;
+        m->b[k] = edge->b[k] - (1 - of.to) * ab;
+    }
+    return m->length > lrcsi_max(PART_LENGTH_MIN * m->width, LENGTH_OVER_ERR * m->err);
 }
 
 double lrcsi_edge_margin_end(const lrcsi_edge_margin *m, double depth, double turn)
@@ -86,13 +125,15 @@ static int event_is_behind_receiver(lrcsi_event_bands *bands, const lrcsi_margin
            lrcsi_face_part_is_behind(bands, receiver->face, part);
 }
 
-/* (c): may an event edge of another part, or (d) another one of Q, come within
-   its slack of N? For another part the slack of both parts is tested, which is larger than needed
-   (its own Hausdorff distance, or twice that, for aligned points), with the errors of both ends
-   wherever N lies, and with what (b) leaves open of a part in front. For P the slack is two
-   reaches. */
-static int event_meets(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
-                       const lrcsi_margin_receiver *receiver, uint32_t other)
+static const lrcsi_segment_part nowhere = {1, 0};
+
+/* The part of an edge near which (c) an event edge of another part, or (d) another one of Q, may
+   come within its slack of N. For another part the slack of both parts is tested, which is larger
+   than needed (its own Hausdorff distance, or twice that, for aligned points), with the errors of
+   both ends wherever N lies, and with what (b) leaves open of a part in front. For P the slack is
+   two reaches. */
+static lrcsi_segment_part event_near(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
+                                     const lrcsi_margin_receiver *receiver, uint32_t other)
 {
     const lrcs_prepared *p = bands->view->prepared;
     const uint32_t part = bands->events.part[other];
@@ -105,26 +146,33 @@ static int event_meets(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, receiver->facet, edge, slack);
-    if (lrcsi_segment_part_is_empty(lrcsi_edge_rectangle_part(&box, m->a, m->b))) {
-        return 0;
+    const lrcsi_segment_part near = lrcsi_edge_rectangle_part(&box, m->a, m->b);
+    if (lrcsi_segment_part_is_empty(near)) {
+        return nowhere;
     }
-    if (part == m->part) {
-        return !lrcsi_event_rim_is_inside(bands, other);
-    }
-    return !event_is_behind_receiver(bands, receiver, part, edge, slack);
+    const int matters = part == m->part
+                            ? !lrcsi_event_rim_is_inside(bands, other)
+                            : !event_is_behind_receiver(bands, receiver, part, edge, slack);
+    return matters ? near : nowhere;
 }
 
-/* The event edges of Q near an edge; those that were found to follow one of its ends come first. */
+/* An event edge of Q near an edge, and the part of that edge which it is near. */
+typedef struct chain_event {
+    uint32_t event;
+    lrcsi_segment_part near;
+} chain_event;
+
+/* Those that were found to follow one of its ends come first. */
 typedef struct edge_chain {
-    uint32_t event[CHAIN_MAX];
+    chain_event event[CHAIN_MAX];
     int count, followed;
 } edge_chain;
 
 /* Notes an event edge of Q, which may be found more than once. Returns 0 if there are too many. */
-static int chain_add(edge_chain *chain, uint32_t event)
+static int chain_add(edge_chain *chain, uint32_t event, lrcsi_segment_part near)
 {
     int i = 0;
-    while (i < chain->count && chain->event[i] != event) {
+    while (i < chain->count && chain->event[i].event != event) {
         i++;
     }
     if (i < chain->count) {
@@ -133,7 +181,7 @@ static int chain_add(edge_chain *chain, uint32_t event)
     if (chain->count == CHAIN_MAX) {
         return 0;
     }
-    chain->event[chain->count++] = event;
+    chain->event[chain->count++] = (chain_event){event, near};
     return 1;
 }
 
@@ -159,7 +207,7 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
     while (!(distance > m->width)) {
         uint32_t next = LRCS_NONE;
         for (int i = chain->followed; i < chain->count; i++) {
-            const uint32_t other = far_end(&edge[bands->events.edge[chain->event[i]]], at);
+            const uint32_t other = far_end(&edge[bands->events.edge[chain->event[i].event]], at);
             if (other == LRCS_NONE) {
                 continue;
             }
@@ -167,7 +215,7 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
                 return -1;
             }
             next = other;
-            const uint32_t event = chain->event[i];
+            const chain_event event = chain->event[i];
             chain->event[i] = chain->event[chain->followed];
             chain->event[chain->followed] = event;
         }
@@ -191,10 +239,31 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
     return turn;
 }
 
-/* Searched is a box larger than every distance that event_meets tests: a slack is at most e_P + 2 k
+/* Follows the event edges at both ends. Where that fails, the end is too near, and so are all that
+   follow neither. */
+static void chain_finish(const lrcsi_edge_margin *m, const lrcsi_event_bands *bands,
+                         edge_chain *chain, lrcsi_edge_gaps *gaps, double turn[2])
+{
+    const double wide = width_fraction(m);
+    for (int end = 0; end < 2; end++) {
+        const int followed = chain->followed;
+        turn[end] = chain_turn(m, bands, end, chain);
+        if (turn[end] < 0) {
+            chain->followed = followed;
+            lrcsi_edge_gaps_add(gaps, end == 0 ? (lrcsi_segment_part){0, wide}
+                                               : (lrcsi_segment_part){1 - wide, 1});
+        }
+    }
+    for (int i = chain->followed; i < chain->count; i++) {
+        lrcsi_edge_gaps_add(gaps, chain->event[i].near);
+    }
+}
+
+/* Searched is a box larger than every distance that event_near tests: a slack is at most e_P + 2 k
    or 2 e_P, an order_err k / 2, and the errors of the ends of another edge are smaller still. */
-int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
-                                  const lrcsi_margin_receiver *receiver, double turn[2])
+void lrcsi_edge_margin_find_gaps(lrcsi_event_bands *bands, const lrcsi_edge_margin *m,
+                                 const lrcsi_margin_receiver *receiver, lrcsi_edge_gaps *gaps,
+                                 double turn[2])
 {
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_proximity_events *events = &bands->events;
@@ -208,22 +277,21 @@ int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_mar
     lrcsi_grid_rect buckets = lrcsi_grid_buckets(&events->grid, &box);
     lrcsi_grid_items items;
     edge_chain chain = {.count = 0};
-    while (lrcsi_grid_next_row(&events->grid, &buckets, &items)) {
+    while (lrcsi_grid_next_row(&events->grid, &buckets, &items) && !lrcsi_edge_gaps_are_all(gaps)) {
         if (!lrcsi_meter_take(bands->meter, (uint64_t)1 + items.to - items.from)) {
-            return 0;
+            lrcsi_edge_gaps_add(gaps, (lrcsi_segment_part){0, 1});
         }
-        for (uint32_t i = items.from; i < items.to; i++) {
+        for (uint32_t i = items.from; i < items.to && !lrcsi_edge_gaps_are_all(gaps); i++) {
             const uint32_t other = events->grid.item[i];
-            if (other == m->event || (receiver->face && events->part[other] == receiver->part) ||
-                !event_meets(bands, m, receiver, other)) {
+            if (other == m->event || (receiver->face && events->part[other] == receiver->part)) {
                 continue;
             }
-            if (events->part[other] != m->part || !chain_add(&chain, other)) {
-                return 0;
+            const lrcsi_segment_part part = event_near(bands, m, receiver, other);
+            if (!lrcsi_segment_part_is_empty(part) &&
+                (events->part[other] != m->part || !chain_add(&chain, other, part))) {
+                lrcsi_edge_gaps_add(gaps, part);
             }
         }
     }
-    turn[0] = chain_turn(m, bands, 0, &chain);
-    turn[1] = turn[0] < 0 ? -1 : chain_turn(m, bands, 1, &chain);
-    return turn[1] >= 0 && chain.followed == chain.count;
+    chain_finish(m, bands, &chain, gaps, turn);
 }

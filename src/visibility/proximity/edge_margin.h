@@ -5,14 +5,15 @@
 #ifndef LRCSI_EDGE_MARGIN_H
 #define LRCSI_EDGE_MARGIN_H
 
+#include "visibility/proximity/edge_gaps.h"
 #include "visibility/proximity/face_frame.h"
 
-/* An event edge: its ends, the distance w; the part with its outline. */
+/* An event edge, or a part of one: its ends, the distance w; the shape's part with its outline. */
 typedef struct lrcsi_edge_margin {
     uint32_t event, part;
     const lrcsi_edge *edge;
     const lrcsi_outline *outline;
-    const double *a, *b;
+    double a[3], b[3];
     double length, along[2], outward[2]; /* outward: away from the part's facets */
     double order_err;  /* the distance in projection within which it is not known what is in front
                          (lrcsi_outline_in_front) */
@@ -38,9 +39,24 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
    and so no deeper than 2.28 k: the area is below 4.4 k^2 times the turn. */
 double lrcsi_edge_margin_end(const lrcsi_edge_margin *margin, double depth, double turn);
 
-/* The conditions (c) and (d) of face_margin.c or, on a wall, of wall_margin.c. Returned: A and B,
-   the turns at both ends. */
-int lrcsi_edge_margin_is_isolated(lrcsi_event_bands *bands, const lrcsi_edge_margin *margin,
-                                  const lrcsi_margin_receiver *receiver, double turn[2]);
+/* Adds the parts of an edge near which (c) or (d) of face_margin.c, or on a wall of wall_margin.c,
+   does not hold. Returned: A and B, the turns at both ends, for parts that begin or end there. */
+void lrcsi_edge_margin_find_gaps(lrcsi_event_bands *bands, const lrcsi_edge_margin *margin,
+                                 const lrcsi_margin_receiver *receiver, lrcsi_edge_gaps *gaps,
+                                 double turn[2]);
+
+/* A part of an edge near which nothing else is: as an edge of its own. The rest of the edge follows
+   it, without a turn. */
+typedef struct lrcsi_edge_part {
+    lrcsi_segment_part of; /* the edge */
+    lrcsi_edge_margin margin;
+    double turn[2];
+} lrcsi_edge_part;
+
+/* The part before gap i, or behind the last one if i is their number, given the turns at the ends of
+   the edge. It begins at an end of the edge, or at least w from it; likewise it ends. Returns 0 if
+   it is too short to be of use. */
+int lrcsi_edge_margin_part(const lrcsi_edge_margin *edge, const lrcsi_edge_gaps *gaps, int i,
+                           const double turn[2], lrcsi_edge_part *part);
 
 #endif

@@ -96,6 +96,8 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t index, lrcsi_face_f
     int is_top = body.zones > 0 && fabs(height) > 0.5 * body.height * unit;
     face->radius = (is_top ? body.top : body.base) * unit *
                    lrcsi_min(1, body.vertex_ratio * (1 - 0.5 * body.half * body.half));
+    face->outer = (is_top ? body.top : body.base) * unit * lrcsi_max(1, body.vertex_ratio) *
+                  LRCSI_OUTWARD_NANO;
     face->det = face->axis[0][0] * face->axis[1][1] - face->axis[0][1] * face->axis[1][0];
     return fabs(face->det) > FACE_COS_MIN;
 }
@@ -114,6 +116,79 @@ int lrcsi_face_contains(const lrcsi_face_frame *face, const double x[2], double 
     lrcsi_face_coordinates(face, x, at);
     double wide = (distance + LRCSI_PROXIMITY_ERR) / fabs(face->det) * LRCSI_OUTWARD_NANO;
     return sqrt(at[0] * at[0] + at[1] * at[1]) + wide < face->radius;
+}
+
+/* Where a segment enters a circle about the centre of the face, and leaves it, as fractions of the
+   way; rounding moves them a little. Returns 0 if it does not meet the circle; both are then where
+   it is nearest to it. */
+static int face_circle_cut(const lrcsi_face_frame *face, const double a[2], const double b[2],
+                           double radius, double cut[2])
+{
+    double p[2];
+    double q[2];
+    lrcsi_face_coordinates(face, a, p);
+    lrcsi_face_coordinates(face, b, q);
+    const double pq[2] = {q[0] - p[0], q[1] - p[1]};
+    const double square = pq[0] * pq[0] + pq[1] * pq[1];
+    const double middle = -(p[0] * pq[0] + p[1] * pq[1]) / square;
+    const double across = (p[0] * pq[1] - p[1] * pq[0]) / sqrt(square);
+    const double half = sqrt(lrcsi_max(0, radius * radius - across * across) / square);
+    cut[0] = middle - half;
+    cut[1] = middle + half;
+    return square > 0 && radius > fabs(across);
+}
+
+/* A point of the segment from a to b. */
+static void segment_point(const double a[2], const double b[2], double t, double x[2])
+{
+    for (int i = 0; i < 2; i++) {
+        x[i] = a[i] + t * (b[i] - a[i]);
+    }
+}
+
+/* A disc is convex: it contains what is between two points of it. The ends are tested; they are
+   chosen a little closer together, so that rounding seldom matters. */
+lrcsi_segment_part lrcsi_face_segment_inside(const lrcsi_face_frame *face, const double a[2],
+                                             const double b[2], double distance)
+{
+    const lrcsi_segment_part none = {1, 0};
+    const double wide = (distance + 4 * LRCSI_PROXIMITY_ERR) / fabs(face->det);
+    double cut[2];
+    double x[2][2];
+    if (!face_circle_cut(face, a, b, (face->radius - wide) * (1 - 1e-9), cut)) {
+        return none;
+    }
+    const lrcsi_segment_part part = {lrcsi_max(0, cut[0]), lrcsi_min(1, cut[1])};
+    segment_point(a, b, part.from, x[0]);
+    segment_point(a, b, part.to, x[1]);
+    return !lrcsi_segment_part_is_empty(part) && lrcsi_face_contains(face, x[0], distance) &&
+                   lrcsi_face_contains(face, x[1], distance)
+               ? part
+               : none;
+}
+
+/* The distance from the centre is a convex function along the segment: outside of two points on
+   either side of the nearest one, all others are farther away. */
+lrcsi_segment_part lrcsi_face_segment_near(const lrcsi_face_frame *face, const double a[2],
+                                           const double b[2], double distance)
+{
+    const lrcsi_segment_part none = {1, 0};
+    const double least =
+        face->outer + (distance + 4 * LRCSI_PROXIMITY_ERR) / fabs(face->det) * LRCSI_OUTWARD_NANO;
+    lrcsi_segment_part part = {0, 1};
+    double cut[2];
+    (void)face_circle_cut(face, a, b, least * (1 + 1e-6), cut);
+    for (int i = 0; i < 2; i++) {
+        const double t = lrcsi_min(1, lrcsi_max(0, cut[i]));
+        double x[2];
+        double at[2];
+        segment_point(a, b, t, x);
+        lrcsi_face_coordinates(face, x, at);
+        if (sqrt(at[0] * at[0] + at[1] * at[1]) > least) {
+            *(i == 0 ? &part.from : &part.to) = t;
+        }
+    }
+    return part.from < part.to ? part : none;
 }
 
 int lrcsi_face_part_is_behind(lrcsi_event_bands *bands, const lrcsi_face_frame *face, uint32_t part)

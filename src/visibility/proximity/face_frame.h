@@ -10,6 +10,7 @@
 typedef struct lrcsi_face_frame {
     uint32_t part, facet;     /* one of its facets */
     double centre[3], radius; /* of a circle that lies in the true face and in that of the facets */
+    double outer;             /* of one about the same centre that contains both */
     double view[2], axis[2][2]; /* the centre and the part's x and y axes in projection */
     double det;                 /* of these axes: the cosine of the incidence, with a sign */
 } lrcsi_face_frame;
@@ -32,6 +33,15 @@ void lrcsi_face_coordinates(const lrcsi_face_frame *face, const double x[2], dou
 
 /* Is a point of the view plane in the face, and all within a distance of it? */
 int lrcsi_face_contains(const lrcsi_face_frame *face, const double x[2], double distance);
+
+/* The part of a segment of the view plane that is in the face with all points within a distance of
+   it. */
+lrcsi_segment_part lrcsi_face_segment_inside(const lrcsi_face_frame *face, const double a[2],
+                                             const double b[2], double distance);
+
+/* A part of it that contains all its points within a distance of the face. */
+lrcsi_segment_part lrcsi_face_segment_near(const lrcsi_face_frame *face, const double a[2],
+                                           const double b[2], double distance);
 
 /* Is a part behind all of the face's part, with nothing left unproved on any facet of the face? */
 int lrcsi_face_part_is_behind(lrcsi_event_bands *bands, const lrcsi_face_frame *face,

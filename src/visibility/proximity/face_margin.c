@@ -209,8 +209,8 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
     const uint32_t part = bands->events.part[event];
     const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
     if (part == job->face.part || bands->events.side[event] == 0 ||
-        !lrcsi_face_contains(&job->face, view->point[edge->low].x, 0) ||
-        !lrcsi_face_contains(&job->face, view->point[edge->high].x, 0)) {
+        lrcsi_segment_part_is_empty(lrcsi_face_segment_inside(&job->face, view->point[edge->low].x,
+                                                              view->point[edge->high].x, 0))) {
         return 0;
     }
     if (!job->parts_known) {
@@ -221,33 +221,29 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
            lrcsi_edge_margin_make(bands, event, job->face.part, beside->order_err, m);
 }
 
-/* (a) */
-static int margin_fits_face(const face_job *job, const lrcsi_edge_margin *m)
-{
-    return lrcsi_face_contains(&job->face, m->a, m->width) &&
-           lrcsi_face_contains(&job->face, m->b, m->width);
-}
-
 /* --- what else is near ------------------------------------------------------------------------ */
 
-/* (e) */
-static int margin_is_clear_of_parts(face_job *job, const lrcsi_edge_margin *m)
+/* Adds the parts of an edge near which (e) does not hold. */
+static void parts_add_gaps(face_job *job, const lrcsi_edge_margin *m, lrcsi_edge_gaps *gaps)
 {
     const uint32_t parts = job->bands->view->prepared->scene->part_count;
     const double wide = m->width + m->err;
-    int clear = lrcsi_meter_take(job->bands->meter, parts);
-    for (uint32_t i = 0; i < parts && clear; i++) {
+    if (!lrcsi_meter_take(job->bands->meter, parts)) {
+        lrcsi_edge_gaps_add(gaps, (lrcsi_segment_part){0, 1});
+    }
+    for (uint32_t i = 0; i < parts && !lrcsi_edge_gaps_are_all(gaps); i++) {
         const face_part *part = &job->part[i];
-        int apart = 0;
-        for (int k = 0; k < DIRECTIONS && !apart; k++) {
+        lrcsi_segment_part near = {0, 1};
+        for (int k = 0; k < DIRECTIONS && !lrcsi_segment_part_is_empty(near); k++) {
             const double a = along_direction(k, m->a);
             const double b = along_direction(k, m->b);
-            apart = lrcsi_max(a, b) + distance_along(k, wide) < part->low[k] ||
-                    lrcsi_min(a, b) - distance_along(k, wide) > part->high[k];
+            lrcsi_segment_part_limit(&near, a, b, part->high[k] + distance_along(k, wide));
+            lrcsi_segment_part_limit(&near, -a, -b, distance_along(k, wide) - part->low[k]);
         }
-        clear = apart;
+        if (!lrcsi_segment_part_is_empty(near)) {
+            lrcsi_edge_gaps_add(gaps, near);
+        }
     }
-    return clear;
 }
 
 /* May a facet cover a point of the view plane? A cross product is compared with a small number only
@@ -324,40 +320,82 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
 
 /* --- all faces -------------------------------------------------------------------------------- */
 
-/* What the true shapes leave visible of the face along an edge, less what their facets leave:
-   returns the area, and a bound on its error. If the margin is on the face alone, this is the
-   signed area between the outlines, or 0 if the face is hidden there; otherwise it lies between the
-   loss and the gain of outline.c. The error is infinite if nothing is known. */
-static double edge_area(face_job *job, const lrcsi_edge_margin *m, double *error)
+/* What the true shapes leave visible of the face along an edge or a part of it, less what their
+   facets leave: the area, and a bound on its error. */
+typedef struct face_area {
+    double area, error;
+} face_area;
+
+/* Where nothing is known, that is between the loss and the gain of outline.c. Of a part of the edge
+   its depths tell: a loss may be 2 k beyond its ends. */
+static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
+                              lrcsi_segment_part part)
 {
-    lrcsi_event_bands *bands = job->bands;
-    const lrcsi_outline_areas *areas = &bands->areas[m->event];
-    double turn[2];
-    *error = 0.5 * (areas->gain + areas->loss) + areas->width * m->order_err;
-    double area = isfinite(*error) ? 0.5 * (areas->gain - areas->loss) : 0;
-    const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
-                                            job->order_err};
-    int visibility = LRCSI_QUERY_NO_ANSWER;
-    if (margin_fits_face(job, m) && margin_is_clear_of_parts(job, m) &&
-        lrcsi_edge_margin_is_isolated(bands, m, &receiver, turn)) {
-        visibility = margin_visibility(job, m);
+    const lrcsi_outline_areas *whole = &job->bands->areas[m->event];
+    const double k = m->outline->k + m->err;
+    const double shift = LRCSI_ROOT_2_OUTWARD * m->order_err + m->err;
+    const double length = (part.to - part.from) * m->length + 2 * m->err;
+    if (!(part.from < part.to)) {
+        return (face_area){0, 0};
     }
-    if (visibility == LRCSI_QUERY_HIDDEN) {
-        *error = 0;
-        return 0;
-    }
+    const double gain = lrcsi_min(whole->gain + whole->width * m->order_err,
+                                  length * (lrcsi_min(whole->gain_depth, k) + shift));
+    const double loss = lrcsi_min(whole->loss + whole->width * m->order_err,
+                                  (length + 4 * k) * (lrcsi_min(whole->loss_depth, k) + shift));
+    return (face_area){0.5 * (gain - loss), 0.5 * (gain + loss) * LRCSI_OUTWARD_NANO};
+}
+
+/* Is the area along an edge or a part of it, near which nothing else is, known with its sign? It is
+   the signed area between the outlines, or 0 if the face is hidden there. */
+static int signed_area(face_job *job, const lrcsi_edge_part *free, face_area *found)
+{
+    const lrcsi_edge_margin *m = &free->margin;
+    const int side = job->bands->events.side[m->event];
+    const int visibility = margin_visibility(job, m);
+    *found = (face_area){0, 0};
     if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
-            lrcsi_outline_margin_make(m->outline, m->a, m->b, bands->events.side[m->event], 0, 1);
-        const double err = margin.error + 2 * m->err * margin.width +
-                           lrcsi_edge_margin_end(m, margin.end_depth[0], turn[0]) +
-                           lrcsi_edge_margin_end(m, margin.end_depth[1], turn[1]);
-        if (err < *error) {
-            *error = err;
-            area = margin.area;
+            lrcsi_outline_margin_make(m->outline, m->a, m->b, side, 0, 1);
+        found->area = margin.area;
+        found->error = margin.error + 2 * m->err * margin.width +
+                       lrcsi_edge_margin_end(m, margin.end_depth[0], free->turn[0]) +
+                       lrcsi_edge_margin_end(m, margin.end_depth[1], free->turn[1]);
+    }
+    return visibility != LRCSI_QUERY_NO_ANSWER && isfinite(found->error);
+}
+
+static void area_add(face_area *sum, face_area one)
+{
+    sum->area += one.area;
+    sum->error += (one.error + 8 * LRCSI_U * fabs(sum->area)) * LRCSI_OUTWARD_NANO;
+}
+
+/* The area along an event edge over the face. Where nothing else is near, it is known with its
+   sign; what lies farther than w from the face does not count. */
+static face_area edge_area(face_job *job, const lrcsi_edge_margin *m)
+{
+    const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
+                                            job->order_err};
+    lrcsi_segment_part left = lrcsi_face_segment_near(&job->face, m->a, m->b, m->width);
+    lrcsi_edge_gaps gaps = {.count = 0};
+    face_area sum = {0, 0};
+    double turn[2] = {0, 0};
+    lrcsi_edge_gaps_add_outside(&gaps, lrcsi_face_segment_inside(&job->face, m->a, m->b, m->width));
+    parts_add_gaps(job, m, &gaps);
+    if (!lrcsi_edge_gaps_are_all(&gaps)) {
+        lrcsi_edge_margin_find_gaps(job->bands, m, &receiver, &gaps, turn);
+    }
+    for (int i = 0; i <= gaps.count; i++) {
+        lrcsi_edge_part free;
+        face_area found;
+        if (lrcsi_edge_margin_part(m, &gaps, i, turn, &free) && signed_area(job, &free, &found)) {
+            area_add(&sum, found);
+            area_add(&sum, unknown_area(job, m, (lrcsi_segment_part){left.from, free.of.from}));
+            left.from = free.of.to;
         }
     }
-    return area;
+    area_add(&sum, unknown_area(job, m, left));
+    return sum;
 }
 
 /* Notes that one more face includes the margin of an event edge, unless too many do. */
@@ -382,6 +420,7 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
     const lrcsi_face_frame *at = &job->face;
     double low[3] = {0, 0, 0};
     double high[3] = {0, 0, 0};
+    face_area sum = {0, 0};
     for (int k = 0; k < 2; k++) {
         const double wide = at->radius * (fabs(at->axis[0][k]) + fabs(at->axis[1][k]));
         low[k] = at->view[k] - wide;
@@ -397,17 +436,11 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
         for (uint32_t i = items.from; i < items.to; i++) {
             const uint32_t event = grid->item[i];
             lrcsi_edge_margin m;
-            double error;
-            if (lrcsi_edge_faces_hold(&faces[event], job->face.part) ||
-                !face_edge_make(job, event, &m)) {
-                continue;
-            }
-            const double area = edge_area(job, &m, &error);
-            if (isfinite(area + error) && edge_faces_add(&faces[event], job->face.part)) {
-                face->known = 1;
-                face->causes |= lrcsi_part_set_of(bands->events.part[event]);
-                face->area += area;
-                face->error += (error + 8 * LRCSI_U * fabs(face->area)) * LRCSI_OUTWARD_NANO;
+            if (!lrcsi_edge_faces_hold(&faces[event], job->face.part) &&
+                face_edge_make(job, event, &m) && edge_faces_add(&faces[event], job->face.part)) {
+                area_add(&sum, edge_area(job, &m));
+                *face = (lrcsi_face_margin){1, sum.area, sum.error,
+                                            face->causes | lrcsi_part_set_of(m.part)};
             }
         }
     }

@@ -103,10 +103,12 @@ typedef struct band_job {
     lrcsi_event_bands bands;
     lrcsi_edge_faces *faces; /* event: the parts whose faces include its margin */
     lrcsi_wall_margins walls;
-    lrcsi_box curved;           /* of all facets of curved parts, in the view */
-    lrcsi_marks considered;     /* events: those that the search for the facet has met */
-    uint32_t *listed;           /* events: those near the facet */
-    lrcsi_proximity_band *band; /* to be filled */
+    lrcsi_box curved;         /* of all facets of curved parts, in the view */
+    lrcsi_marks considered;   /* events: those that the search for the facet has met */
+    uint32_t *listed;         /* events: those near the facet */
+    lrcsi_part_set *unproved; /* facet: the parts of which add_unproved has added the fraction */
+    lrcsi_part_set unproved_aligned; /* likewise, where points are aligned, of the facet at hand */
+    lrcsi_proximity_band *band;      /* to be filled */
 } band_job;
 
 /* Of the sides of a facet: no event edge is near; one may be near everywhere. */
@@ -124,15 +126,17 @@ static void add_both(lrcsi_proximity_band *band, uint32_t facet, double fraction
     band->mismatch[facet] += fraction;
     band->gain[facet] += fraction;
     band->loss[facet] += fraction;
+    band->margin[facet].gain += fraction;
+    band->margin[facet].loss += fraction;
 }
 
-/* Adds the fraction of a facet for which a proof about another part does not hold. */
-static void add_unproved(lrcsi_proximity_band *band, uint32_t facet, uint32_t other,
-                         double fraction)
+/* Adds the fraction of a facet for which the proof of its order with another part does not hold,
+   unless that was done before. */
+static void add_unproved(band_job *job, uint32_t facet, uint32_t other, double fraction)
 {
-    if (fraction > 0) {
-        add_both(band, facet, fraction, lrcsi_part_set_of(other));
-        band->rows[facet] += fraction;
+    if (fraction > 0 && lrcsi_part_set_add(&job->unproved[facet], other)) {
+        add_both(job->band, facet, fraction, lrcsi_part_set_of(other));
+        job->band->rows[facet] += fraction;
     }
 }
 
@@ -188,17 +192,16 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
             continue;
         }
-        add_unproved(band, facet, part, fractions.unproved);
+        add_unproved(job, facet, part, fractions.unproved);
         if (fractions.area > 0) {
             band->parts[facet] |= lrcsi_part_set_of(part);
             band->mismatch[facet] += fractions.area;
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
             band->rows[facet] += fractions.rows;
-            if (lrcsi_wall_margins_add(&job->walls, facet, job->listed[i])) {
+            if (!lrcsi_wall_margins_add(&job->walls, facet, job->listed[i])) {
                 margin->gain += fractions.gain;
                 margin->loss += fractions.loss;
-            } else {
                 margin->causes |= lrcsi_part_set_of(part);
             }
         }
@@ -211,9 +214,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
    no smaller than their projections. */
 static double aligned_open(const lrcsi_view *view, uint32_t facet, double unproved)
 {
-    return unproved > 0 ? 3 * unproved / fabs(lrcsi_view_incidence(view, facet).cos_theta) *
-                              LRCSI_OUTWARD_NANO
-                        : 0;
+    return 3 * unproved / fabs(lrcsi_view_incidence(view, facet).cos_theta) * LRCSI_OUTWARD_NANO;
 }
 
 /* Adds the fractions near these event edges, where points are aligned, and finds the free sides. */
@@ -229,11 +230,14 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
         if (on_face && lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own)) {
             continue; /* its area is that of a margin */
         }
-        if (lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
-            const double open = aligned_open(job->view, facet, fractions.unproved);
-            band->gain_aligned[facet] += fractions.gain + open;
-            band->loss_aligned[facet] += fractions.loss + open;
+        if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
+            continue;
         }
+        const uint32_t part = job->bands.events.part[job->listed[i]];
+        const int adds = fractions.unproved > 0 && lrcsi_part_set_add(&job->unproved_aligned, part);
+        const double open = adds ? aligned_open(job->view, facet, fractions.unproved) : 0;
+        band->gain_aligned[facet] += fractions.gain + open;
+        band->loss_aligned[facet] += fractions.loss + open;
     }
     lrcsi_event_rims(&job->bands, at, job->listed, count, band->rim);
 }
@@ -260,7 +264,10 @@ static int begin_aligned(band_job *job, uint32_t facet)
         if (!lrcsi_part_is_separated(&job->bands.orders, facet, i, &unproved)) {
             return 0;
         }
-        open += aligned_open(job->view, facet, unproved);
+        if (unproved > 0) {
+            open += aligned_open(job->view, facet, unproved);
+            lrcsi_part_set_add(&job->unproved_aligned, i);
+        }
     }
     job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = open;
     job->band->sides[facet] = sides_free;
@@ -311,6 +318,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     job->band->margin[facet].causes = job->band->parts[facet];
     const int on_face =
         job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_has_facet(view, facet);
+    job->unproved_aligned = 0;
     const int aligned = on_face || begin_aligned(job, facet);
     if (on_face) {
         job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
@@ -356,9 +364,9 @@ static void add_pairs(band_job *job)
         if (facing == 0 || (facing < 0 && closed)) {
             continue;
         }
-        if (lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved) ||
-            lrcsi_part_is_behind(&job->bands.orders, pair->facet, other, &unproved)) {
-            add_unproved(job->band, pair->facet, other, unproved);
+        if (lrcsi_part_is_behind(&job->bands.orders, pair->facet, other, &unproved) ||
+            lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved)) {
+            add_unproved(job, pair->facet, other, unproved);
         } else {
             add_both(job->band, pair->facet, (double)pair->area_fraction, lrcsi_part_set_of(other));
             job->band->rows[pair->facet] += (double)pair->row_fraction;
@@ -373,7 +381,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     }
     size_t facets = p->scene->facet_count;
     size_t need = lrcsi_work_blocks(6, facets, sizeof(double));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_part_set)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_segment_part)));
@@ -388,19 +396,13 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
 }
 
-/* Makes the fractions of a facet beside the margins on its wall or plane face: those of all bands,
-   less those of the margins, of which margin->gain and loss are the sums until now. Each is a sum
-   of at most two terms for each event edge and one for each part, with a relative error of u for
-   each term. */
-static void margin_finish(const band_job *job, uint32_t facet)
+/* Completes the fractions of a facet beside the margins on its wall or plane face. Each is a sum of
+   at most two terms for each event edge and one for each part. */
+static void margin_finish(const lrcsi_proximity_band *band, uint32_t facet)
 {
-    const lrcsi_proximity_band *band = job->band;
     lrcsi_wall_margin *margin = &band->margin[facet];
-    const double terms =
-        2.0 * job->bands.events.count + job->view->prepared->scene->part_count + 4.0;
-    const double rounding = 2 * LRCSI_U * terms * (band->gain[facet] + band->loss[facet]);
-    margin->gain = lrcsi_max(0, band->gain[facet] - margin->gain) + rounding;
-    margin->loss = lrcsi_max(0, band->loss[facet] - margin->loss) + rounding;
+    margin->gain *= LRCSI_OUTWARD_MICRO;
+    margin->loss *= LRCSI_OUTWARD_MICRO;
     if (band->parts[facet] == LRCSI_PART_SET_ALL) { /* not all edges were considered */
         margin->gain = margin->loss = 1;
     }
@@ -409,8 +411,9 @@ static void margin_finish(const band_job *job, uint32_t facet)
 /* Computes all fractions:
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
-   3. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
-   4. what margins on walls and plane faces leave; mismatch, gain, loss and rows are limited to 1.
+   3. for each facet that matters: event edges near it, with their margins on walls and plane faces,
+      and grazing incidence (facet_fractions);
+   4. the fractions beside those margins; mismatch, gain, loss and rows are limited to 1.
       gain_aligned and loss_aligned may exceed it: their users compare the areas that they stand for
       with the facet's. */
 static int all_fractions(band_job *job, lrcs_work *work)
@@ -425,7 +428,8 @@ static int all_fractions(band_job *job, lrcs_work *work)
         lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
     job->listed = lrcsi_work_take(work, job->bands.events.count, sizeof *job->listed);
     job->faces = lrcsi_work_take(work, job->bands.events.count, sizeof *job->faces);
-    if (!job->considered.entry || !job->listed || !job->faces) {
+    job->unproved = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *job->unproved);
+    if (!job->considered.entry || !job->listed || !job->faces || !job->unproved) {
         return LRCS_E_MEMORY;
     }
     lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->faces);
@@ -437,12 +441,12 @@ static int all_fractions(band_job *job, lrcs_work *work)
             lrcsi_box_add(&job->curved, box->high);
         }
     }
-    add_pairs(job); /* 2 */
     status =
         lrcsi_wall_margins_make(&job->bands, band->classification, work, band->margin, &job->walls);
     if (status != LRCS_OK) {
         return status;
     }
+    add_pairs(job); /* 2 */
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->rim[f] = sides_free.side[0];
     }
@@ -452,12 +456,13 @@ static int all_fractions(band_job *job, lrcs_work *work)
         if (facet_matters(job->view, f)) {
             facet_fractions(job, f); /* 3 */
         }
-        margin_finish(job, f); /* 4 */
+        margin_finish(band, f); /* 4 */
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
         band->gain[f] = lrcsi_min(1, band->gain[f]);
         band->loss[f] = lrcsi_min(1, band->loss[f]);
         band->rows[f] = band->mismatch[f] < 1 ? lrcsi_min(1, band->rows[f]) : 1;
     }
+    lrcsi_wall_margins_finish(&job->walls);
     return LRCS_OK;
 }
 

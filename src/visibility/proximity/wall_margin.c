@@ -84,7 +84,6 @@ struct lrcsi_margin_facet {
     double cos_ratio_err;         /* bound on |cos / cos' - 1|, where its part of the margin may be
                                      on another facet: cos of its own incidence angle, cos' of that
                                      facet's */
-    double unproved;              /* the fraction of it for which (b) or (e) is not proved */
     double neighbour_err;         /* the sum of this over such facets, times the length along the
                                      edge where the margin may be on them */
 };
@@ -95,6 +94,14 @@ static uint32_t margin_facets_most(const lrcs_prepared *p)
 }
 
 /* --- facets of a wall ------------------------------------------------------------------------- */
+
+/* Notes the fraction of a facet for which its order with another part is not proved. */
+static void unproved_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t part, double unproved)
+{
+    if (unproved > 0 && lrcsi_part_set_add(&job->unproved[facet].parts, part)) {
+        job->unproved[facet].fraction += unproved;
+    }
+}
 
 /* Removes the pairs of a facet with parts that are in front of its own or behind it: of such parts
    (1) does not matter, but for the fractions that are left open. Returns 0 if the limit of steps is
@@ -113,8 +120,9 @@ static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
         }
         if (part != last) {
             double unproved = 0;
-            separated = lrcsi_part_is_separated(&bands->orders, facet, part, &unproved);
-            job->open[facet] += separated ? unproved : 0;
+            separated = lrcsi_part_is_separated_in_front(&bands->orders, facet, part, &unproved) ||
+                        lrcsi_part_is_behind(&bands->orders, facet, part, &unproved);
+            unproved_add(job, facet, part, separated ? unproved : 0);
             last = part;
         }
         if (separated) {
@@ -279,7 +287,7 @@ static int margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
         !lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved)) {
         return 0;
     }
-    one->unproved = unproved + job->open[facet];
+    unproved_add(job, facet, m->part, unproved);
     facet_position(p, facet, &one->patch);
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(view, facet, m->edge, margin_facet_slack(m, one->lateral));
@@ -461,9 +469,8 @@ static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
     to->area_max += depth * part * m->length * LRCSI_OUTWARD_NANO;
     const double known =
         margin->error + 2 * m->err * margin->width + depth * one->length_err * m->length + ends;
-    const double open = one->unproved * lrcsi_view_projected(job->bands->view, one->facet);
     to->area_err += ((1 + one->cos_ratio_err) * known + 2 * depth * one->neighbour_err +
-                     LRCSI_ROOT_2_OUTWARD * one->lateral * near + 2 * open) *
+                     LRCSI_ROOT_2_OUTWARD * one->lateral * near) *
                     LRCSI_OUTWARD_NANO;
 }
 
@@ -501,10 +508,14 @@ static int event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event
     const uint32_t part = bands->view->prepared->scene->facet_part[facet];
     const lrcsi_margin_receiver receiver = {part, facet, NULL, 0};
     lrcsi_edge_margin m;
+    lrcsi_edge_gaps gaps = {.count = 0};
     double turn[2];
     if (!lrcsi_edge_margin_make(bands, event, part, 0, &m) || !margin_facets_find(job, &m, facet) ||
-        !margin_facets_are_local(job, &m) ||
-        !lrcsi_edge_margin_is_isolated(bands, &m, &receiver, turn)) {
+        !margin_facets_are_local(job, &m)) {
+        return 0;
+    }
+    lrcsi_edge_margin_find_gaps(bands, &m, &receiver, &gaps, turn);
+    if (gaps.count > 0) {
         return 0;
     }
     /* If N is hidden, there is no margin, and what is open stays in the fractions of bands. */
@@ -528,6 +539,18 @@ int lrcsi_wall_margins_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t eve
     return at->known;
 }
 
+void lrcsi_wall_margins_finish(const lrcsi_wall_margins *job)
+{
+    const lrcsi_view *view = job->bands->view;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        lrcsi_wall_margin *margin = &job->margin[f];
+        if (margin->area_max + margin->area_err > 0) {
+            margin->area_err +=
+                2 * job->unproved[f].fraction * lrcsi_view_projected(view, f) * LRCSI_OUTWARD_NANO;
+        }
+    }
+}
+
 size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
 {
     const size_t facets = p->scene->facet_count;
@@ -538,7 +561,7 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->intersections.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_unproved)));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
 
@@ -556,14 +579,14 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
-    job->open = lrcsi_work_take_zero(work, facets, sizeof *job->open);
+    job->unproved = lrcsi_work_take_zero(work, facets, sizeof *job->unproved);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
     job->first_contact = lrcsi_work_take(work, facets, sizeof *job->first_contact);
     job->next_contact = lrcsi_work_take(work, contacts->count, sizeof *job->next_contact);
     job->contact = lrcsi_work_take(work, contacts->count, sizeof *job->contact);
     if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
-        !job->open || !job->first_pair || !job->next_pair || !job->first_contact ||
+        !job->unproved || !job->first_pair || !job->next_pair || !job->first_contact ||
         !job->next_contact || !job->contact) {
         return LRCS_E_MEMORY;
     }

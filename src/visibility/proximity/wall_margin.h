@@ -26,6 +26,13 @@ typedef struct lrcsi_wall_event {
     int known;     /* 1: its margins there are */
 } lrcsi_wall_event;
 
+/* Of a facet: the fraction for which its order with some of these parts is not proved
+   (part_order.h). */
+typedef struct lrcsi_wall_unproved {
+    double fraction;
+    lrcsi_part_set parts;
+} lrcsi_wall_unproved;
+
 /* A facet that the margin of an edge meets. */
 typedef struct lrcsi_margin_facet lrcsi_margin_facet;
 
@@ -37,8 +44,7 @@ typedef struct lrcsi_wall_margins {
     uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
                                          next one of the same facet; LRCS_NONE: no further one */
     unsigned char *pairs;             /* facet: what is left of them */
-    double *open;                     /* facet: the fraction for which the order of the parts of the
-                                         other pairs is not proved (part_order.h) */
+    lrcsi_wall_unproved *unproved;    /* facet */
     uint32_t *first_contact, *next_contact; /* facet: the first of the contacts in which it is the
                                                other one; contact: the next one, likewise */
     uint32_t *contact;                      /* contact: the facet that it belongs to */
@@ -65,5 +71,9 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
    that was done before. Returns 1 if they are known. Facets must be given part by part: of each
    event only the last part is remembered, and its margins would be added twice. */
 int lrcsi_wall_margins_add(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
+
+/* Ends the search: adds what proofs of order leave open of the facets with margins to their error.
+   */
+void lrcsi_wall_margins_finish(const lrcsi_wall_margins *margins);
 
 #endif
