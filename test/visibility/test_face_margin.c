@@ -5,7 +5,10 @@
    faces. */
 #include "visibility/proximity/face_margin.h"
 
+#include <stdlib.h>
+
 #include "recipe.h"
+#include "visibility/proximity/cut_polygon.h"
 
 static lrcs_scene scene;
 static lrcs_work work;
@@ -185,15 +188,183 @@ static void not_beside_the_side_of_the_face(void **state)
     check_most(face[FACE].error, 0.6 * error_without_signs(CASTER));
 }
 
-/* (b): the ball lies in the plane of the face in part. */
-static void not_of_a_part_that_pierces_the_plane(void **state)
+static double polygon_area(double (*x)[2], uint32_t count)
+{
+    double twice = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = x[i];
+        const double *b = x[(i + 1) % count];
+        twice += (a[0] - x[0][0]) * (b[1] - x[0][1]) - (a[1] - x[0][1]) * (b[0] - x[0][0]);
+    }
+    return 0.5 * twice;
+}
+
+/* --- parts that pierce the plane --------------------------------------------------------------- */
+
+static int is_left_of(const void *a, const void *b)
+{
+    const double *p = a;
+    const double *q = b;
+    return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+/* The area of the convex hull of points, which are sorted. */
+static double hull_area(double (*x)[2], uint32_t count)
+{
+    static double hull[1u << 17][2];
+    uint32_t n = 0;
+    uint32_t least = 1;
+    assert_true(count > 2 && 2 * count < 1u << 17);
+    qsort(x, count, sizeof *x, is_left_of);
+    for (uint32_t i = 0; i < 2 * count - 1; i++) {
+        const double *next = x[i < count ? i : 2 * count - 2 - i];
+        while (n > least && (hull[n - 1][0] - hull[n - 2][0]) * (next[1] - hull[n - 2][1]) <=
+                                (hull[n - 1][1] - hull[n - 2][1]) * (next[0] - hull[n - 2][0])) {
+            n--;
+        }
+        memcpy(hull[n++], next, sizeof *hull);
+        least = i + 1 == count ? n : least;
+    }
+    return polygon_area(hull, n - 1);
+}
+
+/* A point of the scene, in metres, in projection; kept only if it is on the plane z = 0 or in front
+   of it. */
+static uint32_t add_projected(double x, double y, double z, double (*to)[2], uint32_t count)
+{
+    const double at[3] = {ldexp(x, -view.prepared->exponent), ldexp(y, -view.prepared->exponent),
+                          ldexp(z, -view.prepared->exponent)};
+    double projected[3];
+    if (z < 0) {
+        return count;
+    }
+    lrcsi_view_coordinates(&view, at, projected);
+    memcpy(to[count], projected, sizeof *to);
+    return count + 1;
+}
+
+enum { CIRCLE = 20000 };
+
+/* The area in projection of a ball about (0, 0, z) in front of the plane: the hull of the circle at
+   which lines of sight touch it, and of that on the plane. */
+static double ball_in_front(double radius, double z, const double d[3])
+{
+    static double x[2 * CIRCLE][2];
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double across = hypot(d[0], d[1]);
+    const double e[3] = {-d[1] / across, d[0] / across, 0};
+    const double f[3] = {-d[2] * e[1] / length, d[2] * e[0] / length,
+                         (d[0] * e[1] - d[1] * e[0]) / length};
+    uint32_t count = 0;
+    for (int i = 0; i < CIRCLE; i++) {
+        const double c = radius * cos(2 * LRCS_PI * i / CIRCLE);
+        const double s = radius * sin(2 * LRCS_PI * i / CIRCLE);
+        const double ring = sqrt(radius * radius - z * z) / radius;
+        count = add_projected(c * e[0] + s * f[0], c * e[1] + s * f[1], z + c * e[2] + s * f[2], x,
+                              count);
+        count = add_projected(ring * c, ring * s, 0, x, count);
+    }
+    return hull_area(x, count);
+}
+
+/* The same of a cylinder from (x, 0, z) along (sin lean, 0, cos lean). */
+static double rod_in_front(const lrcs_shape *rod, double from, double z, double lean)
+{
+    static double x[3 * CIRCLE][2];
+    const double axis[2] = {sin(lean), cos(lean)};
+    uint32_t count = 0;
+    for (int i = 0; i < CIRCLE; i++) {
+        const double c = rod->radius * cos(2 * LRCS_PI * i / CIRCLE);
+        const double s = rod->radius * sin(2 * LRCS_PI * i / CIRCLE);
+        const double at[2] = {from + c * axis[1], z - c * axis[0]}; /* x and z on the base */
+        const double t = -at[1] / axis[1];                          /* on the plane */
+        count = add_projected(at[0], s, at[1], x, count);
+        count = add_projected(at[0] + rod->length * axis[0], s, at[1] + rod->length * axis[1], x,
+                              count);
+        if (t > 0 && t < rod->length) {
+            count = add_projected(at[0] + t * axis[0], s, 0, x, count);
+        }
+    }
+    return hull_area(x, count);
+}
+
+/* The polygon of the caster's facets in front of the face. Every vertex in front is in it. */
+static double cut_polygon_area(void)
+{
+    static unsigned char memory[1u << 24];
+    static double corner[1u << 12][2];
+    lrcs_work room = lrcs_work_make(memory, sizeof memory);
+    lrcsi_cut_polygon polygon;
+    lrcsi_face_frame frame;
+    assert_true(lrcsi_face_frame_make(&bands, FACE, &frame));
+    assert_true(lrcsi_cut_polygon_make(&bands, CASTER, &frame, 1e-3, &room, &polygon));
+    assert_true(polygon.count > 10 && polygon.count <= 1u << 12);
+    const lrcs_part *part = &scene.part[CASTER];
+    for (uint32_t i = 0; i < polygon.count; i++) {
+        const double *a = polygon.corner[i];
+        const double *b = polygon.corner[(i + 1) % polygon.count];
+        memcpy(corner[i], a, sizeof corner[i]);
+        for (uint32_t k = 0; k < 3 * part->facet_count; k++) {
+            const uint32_t vertex = scene.facet[part->first_facet + k / 3].corner[k % 3];
+            const double *x = view.point[vertex].x;
+            if (view.prepared->vertex[vertex].x[2] >= 0) {
+                assert_true((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) > -1e-14);
+            }
+        }
+    }
+    return polygon_area(corner, polygon.count);
+}
+
+/* Balls and leaning cylinders that pierce the disc: the area in front of it, of the polygon and of
+   the true shape. The hull of 20,000 points of a circle misses 1.7e-8 of its area. */
+static void margins_of_parts_that_pierce_the_face(void **state)
 {
     (void)state;
-    lrcs_recipe_part part[2] = {part_at(disc, 0, 0, 0), part_at(ball_of(0.3), 0, 0, 0.1)};
-    find_margins(part, 2, 1e-3, oblique, NULL);
-    assert_true(bands.events.count > 20);
-    assert_false(face[FACE].known);
-    assert_int_equal(edges_on_face(CASTER), 0);
+    static const double from[4][3] = {{0.2, 0.1, 1}, {1, 0.4, 1}, {-0.6, 0.5, 0.9}, {0.1, -1, 0.6}};
+    const lrcs_shape rod = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.1, .length = 0.5};
+    for (int i = 0; i < 32; i++) {
+        const double *d = from[i % 4];
+        const double z = -0.2 + 0.05 * (i / 4);
+        const double lean = 0.1 * (i / 4);
+        const int is_rod = i % 2;
+        double true_area;
+        lrcs_recipe_part part[2] = {part_at(disc, 0, 0, 0), is_rod
+                                                                ? part_at(rod, -0.1, 0, -0.12)
+                                                                : part_at(ball_of(0.3), 0, 0, z)};
+        if (is_rod) {
+            const double turn[3][3] = {
+                {cos(lean), 0, sin(lean)}, {0, 1, 0}, {-sin(lean), 0, cos(lean)}};
+            memcpy(part[1].place.rotate, turn, sizeof turn);
+        }
+        find_margins(part, 2, 1e-3, d, NULL);
+        true_area = is_rod ? rod_in_front(&rod, -0.1, -0.12, lean) : ball_in_front(0.3, z, d);
+        assert_true(face[FACE].known && face[FACE].cut == 1u << CASTER);
+        assert_int_equal(face[FACE].causes, 1u << CASTER);
+        const double polygon = cut_polygon_area();
+        check_abs(face[FACE].area, polygon - true_area, face[FACE].error + 1e-7 * true_area);
+        lrcsi_outline cut;
+        double err;
+        assert_true(lrcsi_outline_cut(&bands.orders.outline[CASTER], &view,
+                                      scene.part[FACE].first_facet, &cut, &err));
+        check_most(cut.k, 16 * bands.orders.outline[CASTER].k);
+        check_most(face[FACE].error, 0.05 * cut.k * sqrt(true_area));
+    }
+}
+
+/* A ball that pierces the plane beside the face, or at its border, and one that is hardly in front
+   of it. */
+static void not_of_parts_that_pierce_the_border(void **state)
+{
+    (void)state;
+    static const double at[2][3] = {{0.9, 0, -0.1}, {0, 0, -0.29}};
+    for (int i = 0; i < 2; i++) {
+        lrcs_recipe_part part[2] = {part_at(disc, 0, 0, 0),
+                                    part_at(ball_of(0.3), at[i][0], at[i][1], at[i][2])};
+        find_margins(part, 2, 1e-3, oblique, NULL);
+        assert_true(bands.events.count > 20);
+        assert_int_equal(face[FACE].cut, 0);
+        assert_int_equal(edges_on_face(CASTER), 0);
+    }
 }
 
 /* (c): another ball on the same line of sight has the same outline. */
@@ -256,17 +427,6 @@ static uint32_t outline_of(uint32_t part, double (*x)[2], uint32_t most)
         memcpy(x[count++], view.point[at].x, sizeof *x);
     }
     return count;
-}
-
-static double polygon_area(double (*x)[2], uint32_t count)
-{
-    double twice = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const double *a = x[i];
-        const double *b = x[(i + 1) % count];
-        twice += (a[0] - x[0][0]) * (b[1] - x[0][1]) - (a[1] - x[0][1]) * (b[0] - x[0][0]);
-    }
-    return 0.5 * twice;
 }
 
 /* The area that two convex polygons have in common: the first, cut along the sides of the second. */
@@ -362,16 +522,17 @@ static void nothing_changes_on_a_hidden_face(void **state)
     check_abs(face[FACE].error, 0, 0);
 }
 
-/* Of two discs under the ball, the upper one hides the lower one where the margins are. A third face
-   under them has no margins. */
+/* Of discs under the ball, the uppermost hides the others where the margins are. A fifth face has no
+   margins. */
 static void margins_on_faces_one_behind_the_other(void **state)
 {
     (void)state;
     lrcs_shape upper = disc;
     upper.radius = 0.8;
-    lrcs_recipe_part part[4] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
-                                part_at(upper, 0, 0, 0), part_at(disc, 0, 0, -1)};
-    find_margins(part, 4, 1e-3, oblique, NULL);
+    lrcs_recipe_part part[6] = {part_at(disc, 0, 0, -0.5), part_at(ball_of(0.3), 0, 0, 0.4),
+                                part_at(upper, 0, 0, 0),   part_at(disc, 0, 0, -1),
+                                part_at(disc, 0, 0, -1.5), part_at(disc, 0, 0, -2)};
+    find_margins(part, 6, 1e-3, oblique, NULL);
     const uint32_t edges = edges_on_face(CASTER);
     uint32_t all = 0;
     uint32_t both = 0;
@@ -383,8 +544,8 @@ static void margins_on_faces_one_behind_the_other(void **state)
     assert_true(edges > 20 && both == edges && all == edges);
     check_abs(face[2].area, polygon_beyond_circle(0.3), face[2].error);
     check_most(face[2].error, 0.1 * error_without_signs(CASTER));
-    assert_true(face[FACE].known);
-    assert_false(face[3].known);
+    assert_true(face[FACE].known && face[3].known && face[4].known);
+    assert_false(face[5].known);
     check_most(face[FACE].error, 1e-12);
 }
 
@@ -459,7 +620,8 @@ int main(void)
         cmocka_unit_test(margins_of_a_ball_above_a_disc_have_their_sign),
         cmocka_unit_test(margins_of_short_edges),
         cmocka_unit_test(not_beside_the_side_of_the_face),
-        cmocka_unit_test(not_of_a_part_that_pierces_the_plane),
+        cmocka_unit_test(margins_of_parts_that_pierce_the_face),
+        cmocka_unit_test(not_of_parts_that_pierce_the_border),
         cmocka_unit_test(not_beside_an_edge_of_another_part),
         cmocka_unit_test(not_beside_a_corner_of_the_outline),
         cmocka_unit_test(beside_crossings_of_two_outlines),

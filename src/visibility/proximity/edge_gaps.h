@@ -13,8 +13,8 @@ typedef struct lrcsi_edge_gaps {
     int count;
 } lrcsi_edge_gaps;
 
-/* Adds a part, of which what lies beyond the edge does not count. It is merged with the gaps that it
-   meets; if there are too many, the two that are nearest to each other become one with what is
+/* Adds a part, of which what lies beyond the edge does not count. It is merged with the gaps that
+   it meets; if there are too many, the two that are nearest to each other become one with what is
    between them. */
 void lrcsi_edge_gaps_add(lrcsi_edge_gaps *gaps, lrcsi_segment_part part);
 

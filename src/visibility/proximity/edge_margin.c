@@ -30,29 +30,13 @@ static double ends_err(const lrcsi_view *view, const lrcsi_edge *edge)
                                        lrcsi_view_point_err(view->point[edge->high].x));
 }
 
-int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
-                           double order_err, lrcsi_edge_margin *m)
+/* Completes the data of an edge, given an error of the positions of its ends. Returns 0 if it is
+   too short. */
+static int margin_place(lrcsi_edge_margin *m, double position_err)
 {
-    const lrcsi_view *view = bands->view;
-    const uint32_t part = bands->events.part[event];
-    const double side = bands->events.side[event];
-    const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
-    *m = (lrcsi_edge_margin){.event = event,
-                             .part = part,
-                             .edge = edge,
-                             .outline = &bands->orders.outline[part],
-                             .order_err = order_err};
-    if (part == receiver || side == 0 || !m->outline->known ||
-        lrcsi_event_rim_is_inside(bands, event)) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        m->a[k] = view->point[edge->low].x[k];
-        m->b[k] = view->point[edge->high].x[k];
-    }
     const double ab[2] = {m->b[0] - m->a[0], m->b[1] - m->a[1]};
     m->length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
-    m->err = order_err + m->outline->err + ends_err(view, edge) + LRCSI_PROXIMITY_ERR;
+    m->err = m->order_err + m->outline->err + position_err + LRCSI_PROXIMITY_ERR;
     m->width = 4 * (m->outline->k + m->err);
     if (!(m->length > LENGTH_OVER_ERR * m->err)) {
         return 0;
@@ -61,15 +45,66 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
     for (int i = 0; i < 2; i++) {
         m->along[i] = ab[i] / m->length;
     }
-    m->outward[0] = side * m->along[1];
-    m->outward[1] = -side * m->along[0];
+    m->outward[0] = m->side * m->along[1];
+    m->outward[1] = -m->side * m->along[0];
     return 1;
+}
+
+int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
+                           double order_err, lrcsi_edge_margin *m)
+{
+    const lrcsi_view *view = bands->view;
+    const uint32_t part = bands->events.part[event];
+    const lrcsi_edge *edge = &view->prepared->topology.edge[bands->events.edge[event]];
+    *m = (lrcsi_edge_margin){.event = event,
+                             .part = part,
+                             .edge = edge,
+                             .side = bands->events.side[event],
+                             .outline = &bands->orders.outline[part],
+                             .order_err = order_err};
+    if (part == receiver || m->side == 0 || !m->outline->known ||
+        lrcsi_event_rim_is_inside(bands, event)) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        m->a[k] = view->point[edge->low].x[k];
+        m->b[k] = view->point[edge->high].x[k];
+    }
+    return margin_place(m, ends_err(view, edge));
+}
+
+int lrcsi_edge_margin_make_side(const lrcsi_outline *outline, uint32_t part, const double a[3],
+                                const double b[3], double order_err, lrcsi_edge_margin *m)
+{
+    *m = (lrcsi_edge_margin){
+        .event = LRCS_NONE, .part = part, .side = 1, .outline = outline, .order_err = order_err};
+    for (int k = 0; k < 3; k++) {
+        m->a[k] = a[k];
+        m->b[k] = b[k];
+    }
+    return margin_place(m, LRCSI_EDGE_RECTANGLE_ERR *
+                               (lrcsi_view_point_err(a) + lrcsi_view_point_err(b)));
+}
+
+double lrcsi_edge_margin_turn(const lrcsi_edge_margin *m, const double away[2])
+{
+    const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
+    const double across = fabs(away[0] * m->along[1] - away[1] * m->along[0]) + m->err;
+    return across < TURN_SINE_MAX * length ? ANGLE_OVER_SINE * across / length + m->direction_err
+                                           : -1;
 }
 
 /* The fraction of an edge that is w long, errors included. */
 static double width_fraction(const lrcsi_edge_margin *m)
 {
     return (m->width + m->err) / m->length * LRCSI_OUTWARD_NANO;
+}
+
+void lrcsi_edge_margin_add_end_gap(const lrcsi_edge_margin *m, int end, lrcsi_edge_gaps *gaps)
+{
+    const double wide = width_fraction(m);
+    lrcsi_edge_gaps_add(gaps, end == 0 ? (lrcsi_segment_part){0, wide}
+                                       : (lrcsi_segment_part){1 - wide, 1});
 }
 
 int lrcsi_edge_margin_part(const lrcsi_edge_margin *edge, const lrcsi_edge_gaps *gaps, int i,
@@ -226,13 +261,12 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
         const double *from = view->point[at].x;
         const double *to = view->point[next].x;
         const double away[2] = {to[0] - from[0], to[1] - from[1]};
-        const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
         const double along = away[0] * m->along[0] + away[1] * m->along[1];
-        const double across = fabs(away[0] * m->along[1] - away[1] * m->along[0]) + m->err;
-        if (!((end == 0 ? -along : along) > 0) || !(across < TURN_SINE_MAX * length)) {
+        const double angle = lrcsi_edge_margin_turn(m, away);
+        if (!((end == 0 ? -along : along) > 0) || angle < 0) {
             return -1;
         }
-        turn = lrcsi_max(turn, ANGLE_OVER_SINE * across / length + m->direction_err);
+        turn = lrcsi_max(turn, angle);
         distance = fabs((to[0] - start[0]) * m->along[0] + (to[1] - start[1]) * m->along[1]);
         at = next;
     }
@@ -244,14 +278,12 @@ static double chain_turn(const lrcsi_edge_margin *m, const lrcsi_event_bands *ba
 static void chain_finish(const lrcsi_edge_margin *m, const lrcsi_event_bands *bands,
                          edge_chain *chain, lrcsi_edge_gaps *gaps, double turn[2])
 {
-    const double wide = width_fraction(m);
     for (int end = 0; end < 2; end++) {
         const int followed = chain->followed;
         turn[end] = chain_turn(m, bands, end, chain);
         if (turn[end] < 0) {
             chain->followed = followed;
-            lrcsi_edge_gaps_add(gaps, end == 0 ? (lrcsi_segment_part){0, wide}
-                                               : (lrcsi_segment_part){1 - wide, 1});
+            lrcsi_edge_margin_add_end_gap(m, end, gaps);
         }
     }
     for (int i = chain->followed; i < chain->count; i++) {
@@ -283,15 +315,19 @@ void lrcsi_edge_margin_find_gaps(lrcsi_event_bands *bands, const lrcsi_edge_marg
         }
         for (uint32_t i = items.from; i < items.to && !lrcsi_edge_gaps_are_all(gaps); i++) {
             const uint32_t other = events->grid.item[i];
-            if (other == m->event || (receiver->face && events->part[other] == receiver->part)) {
+            const uint32_t other_part = events->part[other];
+            if (other == m->event || (m->event == LRCS_NONE && other_part == m->part) ||
+                (receiver->face && other_part == receiver->part)) {
                 continue;
             }
             const lrcsi_segment_part part = event_near(bands, m, receiver, other);
             if (!lrcsi_segment_part_is_empty(part) &&
-                (events->part[other] != m->part || !chain_add(&chain, other, part))) {
+                (other_part != m->part || !chain_add(&chain, other, part))) {
                 lrcsi_edge_gaps_add(gaps, part);
             }
         }
     }
-    chain_finish(m, bands, &chain, gaps, turn);
+    if (m->event != LRCS_NONE) {
+        chain_finish(m, bands, &chain, gaps, turn);
+    }
 }

@@ -91,10 +91,11 @@
    (4): between the loss and the gain of outline.c or, where nothing else is near, with its sign.
    The other two integrals are over regions along the sides of U, no wider than e_P, where V exceeds
    the side or falls short of it. For each side the areas of both are equal, by symmetry. If the
-   side is free and no facet of a pair adjoins it, then v = w is constant there, and the two
-   integrals cancel: for a Q that is open and neither in front nor behind this is not proved, and
-   faces in scenes with such a Q are not used. Along any other side they differ by at most the area
-   of either region, below twice the side's length times e_P.
+   side is free and no facet of a pair adjoins it, but for parts that pierce the face, then v = w is
+   constant there, and the two integrals cancel: for a Q that is open and neither in front nor
+   behind this is not proved, and faces are not used if such a Q comes within its slack of them in
+   projection. Along any other side they differ by at most the area of either region, below twice
+   the side's length times e_P.
 
    7. Signs of displacements. Let Q be exact, k_Q = 0, and P have a straight wall, placed without
    distortion. With the symbols of mesh/shape/revolution_reach.c, on a sector with h, kappa and the

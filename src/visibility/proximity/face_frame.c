@@ -37,20 +37,39 @@ unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet)
     return sides;
 }
 
-/* Is every open curved part in front of a part, or of the plane of a facet of it, or behind the
-   part, for all of the facet? */
-static int open_parts_are_ordered(lrcsi_event_bands *bands, uint32_t facet)
+/* Are the facets of a curved part so far from the face in projection that neither they nor the true
+   shape hide anything near it? */
+static int part_is_beside(const lrcsi_event_bands *bands, const lrcsi_face_frame *face,
+                          uint32_t part)
+{
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_box *box = &bands->box[part];
+    const double slack = 2 * lrcsi_proximity_slack(p, face->part, part) +
+                         2 * p->proximity.reach[face->part] + 64 * LRCSI_PROXIMITY_ERR;
+    int beside = 0;
+    for (int k = 0; k < 2; k++) {
+        const double wide = face->outer * (fabs(face->axis[0][k]) + fabs(face->axis[1][k])) + slack;
+        beside |= box->low[k] > face->view[k] + wide || box->high[k] < face->view[k] - wide;
+    }
+    return beside;
+}
+
+/* Is every open curved part in front of the face's part, or of the plane of one of its facets, or
+   behind the part, for all of the facet, or beside the face? */
+static int open_parts_are_ordered(lrcsi_event_bands *bands, const lrcsi_face_frame *face,
+                                  uint32_t facet)
 {
     const lrcs_prepared *p = bands->view->prepared;
     int ordered = lrcsi_meter_take(bands->meter, p->scene->part_count);
     for (uint32_t i = 0; i < p->scene->part_count && ordered; i++) {
         double err;
         double unproved = 0;
-        ordered = i == p->scene->facet_part[facet] || !(p->proximity.hausdorff[i] > 0) ||
+        ordered = i == face->part || !(p->proximity.hausdorff[i] > 0) ||
                   lrcsi_proximity_openings(p, i) == 0 ||
                   ((lrcsi_part_is_in_front(&bands->orders, facet, i, &err, &unproved) ||
                     lrcsi_part_is_behind(&bands->orders, facet, i, &unproved)) &&
-                   unproved == 0);
+                   unproved == 0) ||
+                  part_is_beside(bands, face, i);
     }
     return ordered;
 }
@@ -66,8 +85,7 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t index, lrcsi_face_f
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         if (lrcsi_face_has_facet(view, f)) {
             face->facet = f;
-            if (p->skip[f] || p->redundant[f] >= LRCSI_REDUNDANT_FROM_BEHIND ||
-                !open_parts_are_ordered(bands, f)) {
+            if (p->skip[f] || p->redundant[f] >= LRCSI_REDUNDANT_FROM_BEHIND) {
                 return 0;
             }
         }
@@ -99,7 +117,12 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t index, lrcsi_face_f
     face->outer = (is_top ? body.top : body.base) * unit * lrcsi_max(1, body.vertex_ratio) *
                   LRCSI_OUTWARD_NANO;
     face->det = face->axis[0][0] * face->axis[1][1] - face->axis[0][1] * face->axis[1][0];
-    return fabs(face->det) > FACE_COS_MIN;
+    int ordered = fabs(face->det) > FACE_COS_MIN;
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count && ordered;
+         f++) {
+        ordered = !lrcsi_face_has_facet(view, f) || open_parts_are_ordered(bands, face, f);
+    }
+    return ordered;
 }
 
 void lrcsi_face_coordinates(const lrcsi_face_frame *face, const double x[2], double at[2])

@@ -24,7 +24,7 @@ unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet);
 
 /* The face of a part. Returns 0 if there is none, or it is seen too obliquely, or one of its facets
    hides nothing (another takes its place), or the depth order of the face and an open curved part
-   is not known, or the limit of steps is reached. */
+   is not known and that part is not beside it, or the limit of steps is reached. */
 int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t part, lrcsi_face_frame *face);
 
 /* The coordinates in the plane of the face, along the part's x and y axes, of a point of the view

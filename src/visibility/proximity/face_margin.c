@@ -49,7 +49,24 @@
    (x + r cos A)^2 + (y - r sin A)^2 < y^2. As r^2 + x^2 >= 2 r x, these have x < y tan(A / 2). Of
    the points outside it, those to which a is the nearest point of all are at most y tan A from it.
    Both regions together have an area of at most y^2 (tan(A / 2) + tan A) / 2, below 0.81 y^2 A;
-   likewise for b. */
+   likewise for b.
+
+   The conditions may hold for a part of an edge only. Such a part counts as an edge if it begins at
+   a, or at least w from there, and ends likewise: what is left of the edge follows it, at an angle
+   of 0. The other parts, the gaps, count as edges of which nothing is known: along these, what the
+   true shapes leave visible more is between the loss and the gain of outline.c, 2, no deeper than
+   the depths of the whole edge, nor than k. Parts farther than w from both U and V matter to no
+   point of the face.
+
+   A closed part Q may also pierce the plane, if it reaches far enough in front of it. K and K' are
+   then those of its part in front (outline.c, 1), and so is k. K' is a convex polygon, the sides of
+   which take the place of the event edges of Q in (d), and all that was said of these: one side
+   follows another. Points at which K and K' differ are attributed to the nearest side. (e) is not
+   required of Q itself. The sides contain all that Q hides of the face, so that neither its event
+   edges nor the distances of its facets from the face count any more (event_band.c, 6). Along the
+   border of the face Q hides all or nothing, in truth and for its facets, where no event edge of it
+   is near, because sides of K' that lie in the plane have to be farther than 8 k + 4 e_P from the
+   border. */
 #include "visibility/proximity/face_margin.h"
 
 #include <math.h>
@@ -59,6 +76,7 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "visibility/proximity/cut_polygon.h"
 #include "visibility/proximity/edge_margin.h"
 #include "visibility/uniform/query.h"
 
@@ -234,6 +252,9 @@ static void parts_add_gaps(face_job *job, const lrcsi_edge_margin *m, lrcsi_edge
     for (uint32_t i = 0; i < parts && !lrcsi_edge_gaps_are_all(gaps); i++) {
         const face_part *part = &job->part[i];
         lrcsi_segment_part near = {0, 1};
+        if (i == m->part) {
+            continue;
+        }
         for (int k = 0; k < DIRECTIONS && !lrcsi_segment_part_is_empty(near); k++) {
             const double a = along_direction(k, m->a);
             const double b = along_direction(k, m->b);
@@ -328,10 +349,9 @@ typedef struct face_area {
 
 /* Where nothing is known, that is between the loss and the gain of outline.c. Of a part of the edge
    its depths tell: a loss may be 2 k beyond its ends. */
-static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
+static face_area unknown_area(const lrcsi_edge_margin *m, const lrcsi_outline_areas *whole,
                               lrcsi_segment_part part)
 {
-    const lrcsi_outline_areas *whole = &job->bands->areas[m->event];
     const double k = m->outline->k + m->err;
     const double shift = LRCSI_ROOT_2_OUTWARD * m->order_err + m->err;
     const double length = (part.to - part.from) * m->length + 2 * m->err;
@@ -350,12 +370,11 @@ static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
 static int signed_area(face_job *job, const lrcsi_edge_part *free, face_area *found)
 {
     const lrcsi_edge_margin *m = &free->margin;
-    const int side = job->bands->events.side[m->event];
     const int visibility = margin_visibility(job, m);
     *found = (face_area){0, 0};
     if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
-            lrcsi_outline_margin_make(m->outline, m->a, m->b, side, 0, 1);
+            lrcsi_outline_margin_make(m->outline, m->a, m->b, m->side, 0, 1);
         found->area = margin.area;
         found->error = margin.error + 2 * m->err * margin.width +
                        lrcsi_edge_margin_end(m, margin.end_depth[0], free->turn[0]) +
@@ -370,31 +389,31 @@ static void area_add(face_area *sum, face_area one)
     sum->error += (one.error + 8 * LRCSI_U * fabs(sum->area)) * LRCSI_OUTWARD_NANO;
 }
 
-/* The area along an event edge over the face. Where nothing else is near, it is known with its
-   sign; what lies farther than w from the face does not count. */
-static face_area edge_area(face_job *job, const lrcsi_edge_margin *m)
+/* The area along an edge over the face, near which no other one of its part is, but for these gaps.
+   Where nothing else is near either, it is known with its sign; what lies farther than w from the
+   face does not count. Given also: upper bounds of the areas along it. */
+static face_area edge_area(face_job *job, const lrcsi_edge_margin *m,
+                           const lrcsi_outline_areas *areas, lrcsi_edge_gaps *gaps, double turn[2])
 {
     const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
                                             job->order_err};
     lrcsi_segment_part left = lrcsi_face_segment_near(&job->face, m->a, m->b, m->width);
-    lrcsi_edge_gaps gaps = {.count = 0};
     face_area sum = {0, 0};
-    double turn[2] = {0, 0};
-    lrcsi_edge_gaps_add_outside(&gaps, lrcsi_face_segment_inside(&job->face, m->a, m->b, m->width));
-    parts_add_gaps(job, m, &gaps);
-    if (!lrcsi_edge_gaps_are_all(&gaps)) {
-        lrcsi_edge_margin_find_gaps(job->bands, m, &receiver, &gaps, turn);
+    lrcsi_edge_gaps_add_outside(gaps, lrcsi_face_segment_inside(&job->face, m->a, m->b, m->width));
+    parts_add_gaps(job, m, gaps);
+    if (!lrcsi_edge_gaps_are_all(gaps)) {
+        lrcsi_edge_margin_find_gaps(job->bands, m, &receiver, gaps, turn);
     }
-    for (int i = 0; i <= gaps.count; i++) {
+    for (int i = 0; i <= gaps->count; i++) {
         lrcsi_edge_part free;
         face_area found;
-        if (lrcsi_edge_margin_part(m, &gaps, i, turn, &free) && signed_area(job, &free, &found)) {
+        if (lrcsi_edge_margin_part(m, gaps, i, turn, &free) && signed_area(job, &free, &found)) {
             area_add(&sum, found);
-            area_add(&sum, unknown_area(job, m, (lrcsi_segment_part){left.from, free.of.from}));
+            area_add(&sum, unknown_area(m, areas, (lrcsi_segment_part){left.from, free.of.from}));
             left.from = free.of.to;
         }
     }
-    area_add(&sum, unknown_area(job, m, left));
+    area_add(&sum, unknown_area(m, areas, left));
     return sum;
 }
 
@@ -438,10 +457,70 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
             lrcsi_edge_margin m;
             if (!lrcsi_edge_faces_hold(&faces[event], job->face.part) &&
                 face_edge_make(job, event, &m) && edge_faces_add(&faces[event], job->face.part)) {
-                area_add(&sum, edge_area(job, &m));
+                lrcsi_edge_gaps gaps = {.count = 0};
+                double turn[2] = {0, 0};
+                area_add(&sum, edge_area(job, &m, &bands->areas[event], &gaps, turn));
                 *face = (lrcsi_face_margin){1, sum.area, sum.error,
-                                            face->causes | lrcsi_part_set_of(m.part)};
+                                            face->causes | lrcsi_part_set_of(m.part), 0};
             }
+        }
+    }
+}
+
+/* The area along all sides of the polygon of a part that pierces the face. Returns 0 if it is not
+   known. */
+static int cut_area(face_job *job, uint32_t part, face_area *sum)
+{
+    lrcsi_event_bands *bands = job->bands;
+    const lrcs_prepared *p = bands->view->prepared;
+    const lrcsi_outline *outline = &bands->orders.outline[part];
+    const size_t mark = job->work->used;
+    lrcsi_outline cut;
+    lrcsi_cut_polygon polygon;
+    double order_err;
+    *sum = (face_area){0, 0};
+    int known = outline->known &&
+                lrcsi_outline_cut(outline, bands->view, job->face.facet, &cut, &order_err);
+    const double wide =
+        known ? 8 * cut.k + 4 * p->proximity.reach[job->face.part] + 64 * LRCSI_PROXIMITY_ERR : 0;
+    known = known && lrcsi_cut_polygon_make(bands, part, &job->face, wide, job->work, &polygon) &&
+            lrcsi_meter_take(bands->meter, polygon.count);
+    for (uint32_t i = 0; known && i < polygon.count; i++) {
+        const double *a = polygon.corner[i];
+        const double *b = polygon.corner[(i + 1) % polygon.count];
+        const lrcsi_outline_areas areas = lrcsi_outline_areas_make(&cut, a, b, 1);
+        lrcsi_edge_margin m;
+        if (lrcsi_edge_margin_make_side(&cut, part, a, b, order_err, &m)) {
+            lrcsi_edge_gaps gaps = {.count = 0};
+            double turn[2];
+            lrcsi_cut_polygon_find_gaps(&polygon, i, &m, &gaps, turn);
+            area_add(sum, edge_area(job, &m, &areas, &gaps, turn));
+        } else {
+            area_add(sum, unknown_area(&m, &areas, (lrcsi_segment_part){0, 1}));
+        }
+    }
+    job->work->used = mark;
+    return known && isfinite(sum->area + sum->error);
+}
+
+/* Adds the areas along the outlines of parts that pierce the face. */
+static void face_add_cut(face_job *job, lrcsi_face_margin *face)
+{
+    const lrcs_prepared *p = job->bands->view->prepared;
+    const double *up = p->scene->part[job->face.part].axis[2];
+    for (uint32_t i = 0; i < p->scene->part_count && i < LRCSI_PART_SET_SINGLE; i++) {
+        const double slack =
+            2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
+        face_area sum = {face->area, face->error};
+        face_area one;
+        if (!job->parts_known) {
+            face_parts_make(job);
+        }
+        if (i != job->face.part && !job->part[i].in_front && !part_is_far(job, i, up, slack) &&
+            cut_area(job, i, &one)) {
+            area_add(&sum, one);
+            *face = (lrcsi_face_margin){1, sum.area, sum.error, face->causes | lrcsi_part_set_of(i),
+                                        face->cut | lrcsi_part_set_of(i)};
         }
     }
 }
@@ -450,6 +529,7 @@ size_t lrcsi_face_margins_need(const lrcs_prepared *p)
 {
     size_t need = lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
                                  lrcsi_work_bytes(p->scene->part_count, sizeof(face_part)));
+    need = lrcsi_work_add(need, lrcsi_cut_polygon_need(p));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
 
@@ -457,17 +537,19 @@ void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *cla
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces)
 {
     const lrcs_scene *scene = bands->view->prepared->scene;
+    const lrcsi_edge_faces none = {{LRCS_NONE, LRCS_NONE, LRCS_NONE, LRCS_NONE}};
     const size_t mark = work->used;
     face_job job = {.bands = bands, .classification = classification, .work = work};
     job.part = lrcsi_work_take(work, scene->part_count, sizeof *job.part);
     for (uint32_t i = 0; i < bands->events.count; i++) {
-        faces[i] = (lrcsi_edge_faces){{LRCS_NONE, LRCS_NONE}};
+        faces[i] = none;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {
         face[i] = (lrcsi_face_margin){.known = 0};
         job.parts_known = 0;
         if (job.part && lrcsi_face_frame_make(bands, i, &job.face)) {
             face_add(&job, &face[i], faces);
+            face_add_cut(&job, &face[i]);
         }
     }
     work->used = mark;

@@ -17,24 +17,28 @@ typedef struct lrcsi_face_margin {
                               in these margins, less what their facets leave */
     double error;          /* bound on its error */
     lrcsi_part_set causes; /* the parts whose outlines the margins belong to */
+    lrcsi_part_set cut;    /* parts that pierce the face, but for the last one of the set: the
+                              margins contain all that their true shapes and facets hide of it
+                              differently */
 } lrcsi_face_margin;
 
-/* The parts whose faces include the margin of an event edge, one face behind the other; LRCS_NONE:
-   no further part. */
-#define LRCSI_EDGE_FACES 2
+/* The parts whose faces include the margin of an event edge, beside one another or one behind the
+   other; LRCS_NONE: no further part. */
+#define LRCSI_EDGE_FACES 4
 typedef struct lrcsi_edge_faces {
     uint32_t part[LRCSI_EDGE_FACES];
 } lrcsi_edge_faces;
 
 static inline int lrcsi_edge_faces_hold(const lrcsi_edge_faces *faces, uint32_t part)
 {
-    return faces->part[0] == part || faces->part[1] == part;
+    return faces->part[0] == part || faces->part[1] == part || faces->part[2] == part ||
+           faces->part[3] == part;
 }
 
-/* Fills face[part]: the areas along all event edges over the face. Where the margin of an edge lies
-   on the face alone, its area is known with its sign; elsewhere it is between the loss and the gain
-   of visibility/proximity/outline.h. Also returned: faces[event]. Where steps or memory run out,
-   fewer margins are known. Scratch memory is released. */
+/* Fills face[part]: the areas along all event edges over the face. Where the margin of an edge, or
+   of a part of one, lies on the face alone, its area is known with its sign; elsewhere it is
+   between the loss and the gain of visibility/proximity/outline.h. Also returned: faces[event].
+   Where steps or memory run out, fewer margins are known. Scratch memory is released. */
 void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces);
 

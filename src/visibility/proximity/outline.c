@@ -18,6 +18,19 @@
    straight line from a point of B behind P to the point that is h in front of P meets P after at
    most e / (e + h) of its length. []
 
+   For a closed Q of which a part is behind P as well, the same holds for the projections K of B+
+   and K' of S+, the part of S^ in front of P, up to the errors e of heights: the ray of a point of
+   P in B leaves B through its surface. Let some point of B and one of S^ be in front by at least h.
+   A point of S+ is within k_Q of one of B, which is at most k_Q behind P. So B+ contains a point no
+   farther than k = k_Q (1 + size / h) from it; likewise for points of B+. Everything below holds
+   for B+ and S+ in the place of B and S^.
+   In a direction w of the view plane B+ is farthest where B is, if that point is in front of P.
+   Otherwise it is farthest on P: of the points where B+ is farthest, and the straight line from one
+   of them to that point of B, some are on P, and no less far. Let n be the unit normal of P, and
+   n . x = c on it. The farthest point on P is not farther than max {(w + s n) . x: x in B} - s c,
+   for any s. As s grows, the support point of B in the direction w + s n passes from behind P to
+   its front; the straight line between two such points contains a point of B on P.
+
    2. Along an edge. Consider a contour edge of length L, and coordinates in projection: t along the
    edge, 0 .. L, and the depth, perpendicular to it, positive towards the facets of Q. Let y be a
    point of K' and x one outside K, or y a point outside K' and x one of K, at a distance of at most
@@ -52,6 +65,7 @@
 #include "visibility/proximity/outline.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/outward.h"
 #include "base/vec3.h"
@@ -75,6 +89,10 @@
 #define BISECTIONS         20
 #define REACHING_ERR       0x1p-6
 #define REACHING_SLOPE_ERR 0x1p-4
+/* A solid is cut by a plane only if it reaches so far in front of it, as a fraction of its size. */
+#define CUT_HEIGHT_MIN 0x1p-4
+/* Steps to find a support point on that plane. */
+#define CUT_STEPS 80
 /* Beside an edge that is shorter than this many Hausdorff distances, upper bounds of areas are not
    found. Heuristic: the region about so short an edge, 4 k longer, is hardly smaller than the
    rectangle. */
@@ -133,43 +151,79 @@ static double plane_normal(const lrcs_prepared *p, uint32_t facet, double n[3])
     return is_disc ? 0 : part->bounds.normal_err;
 }
 
+/* The plane of a flat facet beside a solid, in the frame of the solid's part: up . x = level, with
+   an error e of heights above it. Heights: that of the solid's highest point, and the depth of the
+   lowest one of the true solid and that of the facets. */
+typedef struct outline_plane {
+    double up[3], level, e;
+    double height, behind;
+} outline_plane;
+
 /* The vertices of a solid of facets are those of the true one, stretched across the axis by
    vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
-   surface differs from its own by the rounding of its corners. Both the true solid and that of the
-   facets leave open a distance of e size / height; the first of the two changes x, the second y
-   and the depth of y. */
-int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
-                           double *err)
+   surface differs from its own by the rounding of its corners. */
+static outline_plane outline_plane_make(const lrcsi_outline *o, const lrcsi_view *view,
+                                        uint32_t facet)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *own = &p->scene->part[p->scene->facet_part[facet]];
     double n[3];
     double from[3];
-    const double normal_err = plane_normal(p, facet, n);
-    lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), o->origin, from);
-    double up[3];
     double down[3];
-    for (int k = 0; k < 3; k++) {
-        up[k] = lrcsi_vec3_dot(o->part->axis[k], n);
-        down[k] = -up[k];
-    }
-    double at = lrcsi_vec3_dot(from, n);
-    double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
-    double e = 2 * o->err + 64 * LRCSI_U * far;
-    if (own->bounds.reach > 0) {
-        e += normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
-    }
     double lowest[3];
     double highest[3];
-    lrcsi_support_point(&o->solid, up, highest);
+    outline_plane plane;
+    const double normal_err = plane_normal(p, facet, n);
+    lrcsi_vec3_between(o->origin, lrcsi_prepared_corner(p, facet, 0), from);
+    for (int k = 0; k < 3; k++) {
+        plane.up[k] = lrcsi_vec3_dot(o->part->axis[k], n);
+        down[k] = -plane.up[k];
+    }
+    plane.level = lrcsi_vec3_dot(from, n);
+    const double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
+    plane.e = 2 * o->err + 64 * LRCSI_U * far;
+    if (own->bounds.reach > 0) {
+        plane.e += normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
+    }
+    lrcsi_support_point(&o->solid, plane.up, highest);
     lrcsi_support_point(&o->solid, down, lowest);
-    double behind = lrcsi_vec3_dot(lowest, down);
+    plane.behind = lrcsi_vec3_dot(lowest, down);
     const double wider[3] = {o->vertex_ratio * down[0], o->vertex_ratio * down[1], down[2]};
     lrcsi_support_point(&o->solid, wider, lowest);
-    behind = lrcsi_max(behind, lrcsi_vec3_dot(lowest, wider)) - at;
-    double height = at + lrcsi_vec3_dot(highest, up) - e;
-    *err = height > 0 ? 4 * e * (1 + o->size / height) : HUGE_VAL;
-    return view->facing[facet] > 0 && behind <= e && *err <= 0.5 * o->k;
+    plane.behind = lrcsi_max(plane.behind, lrcsi_vec3_dot(lowest, wider)) + plane.level;
+    plane.height = lrcsi_vec3_dot(highest, plane.up) - plane.level - plane.e;
+    return plane;
+}
+
+/* Both the true solid and that of the facets leave open a distance of e size / height; the first of
+   the two changes x, the second y and the depth of y. */
+static double plane_open(const lrcsi_outline *o, const outline_plane *plane)
+{
+    return plane->height > 0 ? 4 * plane->e * (1 + o->size / plane->height) : HUGE_VAL;
+}
+
+int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
+                           double *err)
+{
+    const outline_plane plane = outline_plane_make(o, view, facet);
+    *err = plane_open(o, &plane);
+    return view->facing[facet] > 0 && plane.behind <= plane.e && *err <= 0.5 * o->k;
+}
+
+int lrcsi_outline_cut(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
+                      lrcsi_outline *cut, double *err)
+{
+    outline_plane plane = outline_plane_make(o, view, facet);
+    plane.height -= o->k; /* of the solid of the facets as well */
+    *err = plane_open(o, &plane);
+    *cut = *o;
+    cut->is_cut = 1;
+    cut->level = plane.level;
+    memcpy(cut->up, plane.up, sizeof cut->up);
+    cut->k *=
+        (1 + o->size / lrcsi_max(plane.height, CUT_HEIGHT_MIN * o->size)) * LRCSI_OUTWARD_NANO;
+    return o->part->solid && view->facing[facet] > 0 && plane.height > CUT_HEIGHT_MIN * o->size &&
+           *err <= 0.5 * o->k;
 }
 
 /* The opening is at z = 0, its normal along -z. */
@@ -188,12 +242,58 @@ typedef struct outline_edge {
     double from, to;
 } outline_edge;
 
-/* A support point: coordinates t and depth, and the slope of its tangent; the direction in which it
-   is farthest, and its position, in the frame of the part. */
+/* A support point: coordinates t and depth, and the slope of its tangent, on which the depth is
+   less by at most `gap`; the direction in which it is farthest, and its position, in the frame of
+   the part; its height above the plane that cuts the solid, 0 on it. */
 typedef struct outline_point {
-    double t, depth, slope;
+    double t, depth, slope, gap;
     double n[3], x[3];
+    double height;
 } outline_point;
+
+static double height_above(const lrcsi_outline *o, const double x[3])
+{
+    return lrcsi_vec3_dot(o->up, x) - o->level;
+}
+
+/* Of a solid that is cut: the point on the plane that is farthest in a direction n, given the
+   solid's support point behind the plane. Returns how much less far it is, at most, than the
+   farthest one. */
+static double section_point(const lrcsi_outline *o, const double n[3], double x[3])
+{
+    double behind[3] = {x[0], x[1], x[2]};
+    double front[3];
+    double most = HUGE_VAL; /* an upper bound of x . n */
+    double low = 0;
+    double high = 0; /* 0: no point in front is known yet */
+    double next = sqrt(lrcsi_vec3_dot(n, n));
+    double gap = HUGE_VAL;
+    for (int i = 0; i < CUT_STEPS && gap > 4 * LRCSI_U * o->size; i++) {
+        const double turned[3] = {n[0] + next * o->up[0], n[1] + next * o->up[1],
+                                  n[2] + next * o->up[2]};
+        double point[3];
+        lrcsi_support_point(&o->solid, turned, point);
+        const double height = height_above(o, point);
+        most = lrcsi_min(most, lrcsi_vec3_dot(n, point) + next * height);
+        if (height < 0) {
+            low = next;
+            memcpy(behind, point, sizeof behind);
+        } else {
+            high = next;
+            memcpy(front, point, sizeof front);
+        }
+        if (high > 0) {
+            const double h[2] = {height_above(o, behind), height_above(o, front)};
+            const double part = h[0] / (h[0] - h[1]);
+            for (int k = 0; k < 3; k++) {
+                x[k] = behind[k] + part * (front[k] - behind[k]);
+            }
+            gap = lrcsi_max(0, most - lrcsi_vec3_dot(n, x));
+        }
+        next = high > 0 ? 0.5 * (low + high) : 2 * next;
+    }
+    return gap;
+}
 
 /* The point of the true solid that is farthest in the direction outward + slope along of the view
    plane, in projection; the slope of its tangent is the same. */
@@ -208,6 +308,13 @@ static outline_point outline_point_at(const outline_edge *edge, double slope)
         point.n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
     }
     lrcsi_support_point(&o->solid, point.n, point.x);
+    if (o->is_cut) {
+        point.height = height_above(o, point.x);
+        if (point.height < 0) {
+            point.gap = section_point(o, point.n, point.x);
+            point.height = 0;
+        }
+    }
     for (int i = 0; i < 2; i++) {
         off[i] = o->centre[i] - edge->a[i];
         for (int k = 0; k < 3; k++) {
@@ -343,6 +450,22 @@ static void ends_add(const outline_edge *edge, const outline_piece *piece, outli
     }
 }
 
+/* The angle of the arc between two support points; HUGE_VAL if it is not known. Of a solid that is
+   cut, it must be in front of the plane: an arc is no farther from its chord than that is long. */
+static double arc_angle(const lrcsi_outline *o, const outline_point *p, const outline_point *q)
+{
+    if (o->is_cut) {
+        double chord[3];
+        lrcsi_vec3_between(p->x, q->x, chord);
+        const double square = lrcsi_vec3_dot(chord, chord);
+        const double least = lrcsi_min(p->height, q->height);
+        if (!(least > 0 && least * least > square)) {
+            return HUGE_VAL;
+        }
+    }
+    return lrcsi_support_arc(&o->solid, p->n, p->x, q->n, q->x);
+}
+
 /* The signed area over the given part of the edge, in the piece; its error. */
 typedef struct piece_area {
     double area, error;
@@ -365,7 +488,7 @@ static piece_area piece_area_make(const outline_edge *edge, const outline_piece 
     double fraction = 0.5;
     double fraction_err = 0.5;
     if (from == p->t && to == q->t) {
-        const double angle = lrcsi_support_arc(&edge->outline->solid, p->n, p->x, q->n, q->x);
+        const double angle = arc_angle(edge->outline, p, q);
         if (angle <= ARC_ANGLE_MAX) {
             fraction_err = angle * angle / 48;
             fraction = 2.0 / 3 - fraction_err;
@@ -486,10 +609,15 @@ static double outline_width(const outline_edge *edge)
     return LRCSI_ROOT_2_OUTWARD * (edge->to - edge->from + 4 * edge->outline->k);
 }
 
-/* The error of depths along an edge from a to b. */
-static double depth_err(const lrcsi_outline *o, const double a[3], const double b[3])
+/* The error of depths along an edge from a to b, given support points. */
+static double depth_err(const lrcsi_outline *o, const double a[3], const double b[3],
+                        const outline_point *point, int count)
 {
-    return 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
+    double gap = 0;
+    for (int i = 0; i < count; i++) {
+        gap = lrcsi_max(gap, point[i].gap);
+    }
+    return 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b)) + gap;
 }
 
 lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
@@ -503,7 +631,7 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     }
     const outline_sums sums = outline_sums_make(&edge, point, AREA_POINTS);
     const double width = outline_width(&edge);
-    const double err = depth_err(o, a, b);
+    const double err = depth_err(o, a, b, point, AREA_POINTS);
     return (lrcsi_outline_areas){(sums.gain + err * width) * LRCSI_OUTWARD_SUM,
                                  (sums.loss + err * width) * LRCSI_OUTWARD_SUM,
                                  (sums.gain_depth + err) * LRCSI_OUTWARD_SUM,
@@ -522,14 +650,15 @@ lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const dou
         return (lrcsi_outline_margin){.error = HUGE_VAL};
     }
     const double width = outline_width(&edge);
-    const double err_depth = depth_err(o, a, b);
-    const double err = err_depth * width;
     outline_sums sums = outline_sums_make(&edge, point, MARGIN_POINTS);
-    const double enough = lrcsi_max(err, MARGIN_ERR_FRACTION * (sums.gain + sums.loss));
+    const double enough = lrcsi_max(depth_err(o, a, b, point, MARGIN_POINTS) * width,
+                                    MARGIN_ERR_FRACTION * (sums.gain + sums.loss));
     const int count = outline_points_add(&edge, enough, point, MARGIN_POINTS);
     if (count > MARGIN_POINTS) {
         sums = outline_sums_make(&edge, point, count);
     }
+    const double err_depth = depth_err(o, a, b, point, count);
+    const double err = err_depth * width;
     const outline_signed found = outline_signed_make(&edge, point, count);
     return (lrcsi_outline_margin){found.area,
                                   (found.error + err) * LRCSI_OUTWARD_SUM,

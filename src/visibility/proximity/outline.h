@@ -25,7 +25,9 @@ typedef struct lrcsi_outline {
     double centre[2], axis[3][2]; /* its origin and axes in view coordinates */
     double size;                  /* at least the solid's diameter */
     double k;
-    double err; /* bound on the errors of points of the solid */
+    double err;          /* bound on the errors of points of the solid */
+    int is_cut;          /* 1: it is that of the part of the solid in front of a plane */
+    double up[3], level; /* where up . x >= level, in the frame of the part */
 } lrcsi_outline;
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t part);
@@ -39,6 +41,13 @@ int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, i
    it is to be added to delta. */
 int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
                            double *err);
+
+/* If a closed solid is in front of such a plane in part, and far enough: the outline of that part.
+   Of both B and S^ only what is in front of the plane counts, k is a bound on its Hausdorff
+   distance, and Q hides exactly the points of the plane whose projection lies in the new K, except
+   within a distance of *err, as above. Returns 0 if it is not. */
+int lrcsi_outline_cut(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
+                      lrcsi_outline *cut, double *err);
 
 /* Upper bounds of the areas in projection, along one edge, where points y may be gained and lost,
    and of the distances of such points from the edge. `width` times delta is to be added to the

@@ -131,13 +131,24 @@ static void add_both(lrcsi_proximity_band *band, uint32_t facet, double fraction
 }
 
 /* Adds the fraction of a facet for which the proof of its order with another part does not hold,
-   unless that was done before. */
-static void add_unproved(band_job *job, uint32_t facet, uint32_t other, double fraction)
+   unless that was done before. Returns what it adds. */
+static double add_unproved(band_job *job, uint32_t facet, uint32_t other, double fraction)
 {
-    if (fraction > 0 && lrcsi_part_set_add(&job->unproved[facet], other)) {
-        add_both(job->band, facet, fraction, lrcsi_part_set_of(other));
-        job->band->rows[facet] += fraction;
+    if (!(fraction > 0) || !lrcsi_part_set_add(&job->unproved[facet], other)) {
+        return 0;
     }
+    add_both(job->band, facet, fraction, lrcsi_part_set_of(other));
+    job->band->rows[facet] += fraction;
+    return fraction;
+}
+
+/* Does a part pierce the flat face of a facet, so that the margins of the face contain all of its
+   effect? */
+static int pierces_face(const band_job *job, uint32_t facet, uint32_t other)
+{
+    const lrcsi_part_set cut = job->band->face[job->view->prepared->scene->facet_part[facet]].cut;
+    return other < LRCSI_PART_SET_SINGLE && (cut & lrcsi_part_set_of(other)) != 0 &&
+           lrcsi_face_has_facet(job->view, facet);
 }
 
 /* Lists the event edges near a facet: job->listed[0..*count). Returns 0 if the limit of steps is
@@ -192,7 +203,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
             continue;
         }
-        add_unproved(job, facet, part, fractions.unproved);
+        (void)add_unproved(job, facet, part, fractions.unproved);
         if (fractions.area > 0) {
             band->parts[facet] |= lrcsi_part_set_of(part);
             band->mismatch[facet] += fractions.area;
@@ -227,7 +238,8 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
         lrcsi_event_sides(&job->bands, at, job->listed[i], &band->sides[facet]);
-        if (on_face && lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own)) {
+        if (on_face && (lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own) ||
+                        pierces_face(job, facet, job->bands.events.part[job->listed[i]]))) {
             continue; /* its area is that of a margin */
         }
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
@@ -300,8 +312,9 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
 
 /* 1. Nothing is near a flat facet that no curved part overlaps in projection;
    2. event edges near the facet, listed once for both correspondences of points;
-   3. grazing incidence. */
-static void facet_fractions(band_job *job, uint32_t facet)
+   3. grazing incidence.
+   Given: on a flat face, what of it is near other parts that do not pierce the face. */
+static void facet_fractions(band_job *job, uint32_t facet, double pairs)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
@@ -314,7 +327,6 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
-    const double pairs = job->band->gain[facet]; /* so far: of add_pairs */
     job->band->margin[facet].causes = job->band->parts[facet];
     const int on_face =
         job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_has_facet(view, facet);
@@ -347,7 +359,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and the back
+/* Adds the fractions near facets of other parts; those of parts that do not pierce a face also to
+   gain_aligned, for now. Facets seen edge-on hide nothing, and the back
    sides of a closed part hide nothing that its front sides do not hide. The depth order of a flat
    facet and a part in front of its plane is certain. */
 static void add_pairs(band_job *job)
@@ -359,6 +372,7 @@ static void add_pairs(band_job *job)
         int facing = view->facing[pair->other];
         int closed = p->solid || p->scene->part[p->scene->facet_part[pair->other]].solid;
         uint32_t other = p->scene->facet_part[pair->other];
+        double near = (double)pair->area_fraction;
         double err;
         double unproved;
         if (facing == 0 || (facing < 0 && closed)) {
@@ -366,10 +380,13 @@ static void add_pairs(band_job *job)
         }
         if (lrcsi_part_is_behind(&job->bands.orders, pair->facet, other, &unproved) ||
             lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved)) {
-            add_unproved(job, pair->facet, other, unproved);
+            near = add_unproved(job, pair->facet, other, unproved);
         } else {
-            add_both(job->band, pair->facet, (double)pair->area_fraction, lrcsi_part_set_of(other));
+            add_both(job->band, pair->facet, near, lrcsi_part_set_of(other));
             job->band->rows[pair->facet] += (double)pair->row_fraction;
+        }
+        if (!pierces_face(job, pair->facet, other)) {
+            job->band->gain_aligned[pair->facet] += near;
         }
     }
 }
@@ -451,10 +468,11 @@ static int all_fractions(band_job *job, lrcs_work *work)
         band->rim[f] = sides_free.side[0];
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        const double pairs = band->gain_aligned[f];
         band->gain_aligned[f] = -1;
         band->sides[f] = sides_near;
         if (facet_matters(job->view, f)) {
-            facet_fractions(job, f); /* 3 */
+            facet_fractions(job, f, pairs); /* 3 */
         }
         margin_finish(band, f); /* 4 */
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
@@ -502,7 +520,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
-    m.gain_aligned = lrcsi_work_take(work, facets, sizeof *m.gain_aligned);
+    m.gain_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.gain_aligned);
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
     m.rim = lrcsi_work_take(work, facets, sizeof *m.rim);
