@@ -84,8 +84,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
         need = lrcsi_work_add(need, lrcsi_open_sectors_need(prepared));
     }
     if (prepared->proximity.reach) {
-        need = lrcsi_work_add(
-            need, lrcsi_work_bytes(prepared->scene->part_count, sizeof(lrcsi_flat_face)));
+        need =
+            lrcsi_work_add(need, lrcsi_work_blocks(LRCSI_FACES_OF_PART, prepared->scene->part_count,
+                                                   sizeof(lrcsi_flat_face)));
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -125,7 +126,9 @@ static int run_allocate(lrcsi_sigma *run)
         moments ? lrcsi_work_take(run->work, facets, sizeof *memory->wall_terms) : NULL;
     int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;
     memory->face =
-        faces ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *memory->face) : NULL;
+        faces ? lrcsi_work_take(run->work, LRCSI_FACES_OF_PART * (size_t)p->scene->part_count,
+                                sizeof *memory->face)
+              : NULL;
     run->curve_terms =
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;

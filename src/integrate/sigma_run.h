@@ -42,7 +42,7 @@ typedef struct lrcsi_sigma_memory {
     lrcsi_visible_area *visible;  /* [facet_count]; NULL: the plan implies all areas */
     lrcsi_moment *moment;         /* [facet_count]; NULL: moments are not wanted */
     lrcsi_wall_terms *wall_terms; /* [facet_count]; NULL: pieces are not wanted */
-    lrcsi_flat_face *face;        /* [part_count]; NULL: no margins on flat faces are wanted */
+    lrcsi_flat_face *face;        /* [faces]; NULL: no margins on flat faces are wanted */
 } lrcsi_sigma_memory;
 
 /* The state of a run and, at its end, what the stages found. */

@@ -104,7 +104,8 @@ static void check_truths(shadow_scene *s, const shadow_truth *truth, int count)
                 lrcs_result r = prepared_run(prepared, t->d, method);
                 check_abs(r.sigma_m2, t->sigma, r.bound_m2 + t->error);
                 if (method == LRCS_METHOD_EXACT) {
-                    check_most(chosen.bound_m2, 1.000001 * r.bound_m2);
+                    /* what rounding adds to visible areas may differ */
+                    check_most(chosen.bound_m2, 1.000001 * r.bound_m2 + 1e-12 * t->sigma);
                     check_most(i == 2 && t->sigma > 0 ? r.bound_m2 : 0, t->tight * t->sigma);
                 }
             }

@@ -49,8 +49,7 @@ static void check_parts(int parts, double length)
     }
     for (int k = 0; k < POINTS; k++) {
         const double t = (double)k / (POINTS - 1);
-        assert_true(parts <= LRCSI_EDGE_GAPS ? holds(&gaps, t) == in[k]
-                                             : holds(&gaps, t) >= in[k]);
+        assert_true(parts <= LRCSI_EDGE_GAPS ? holds(&gaps, t) == in[k] : holds(&gaps, t) >= in[k]);
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Along which event edges the margins on a flat face are known with their sign: those of a ball
-   above a disc, beside scenes in which one of the conditions (a) to (f) of face_margin.c does not
+   above a disc or a rectangle, beside scenes in which one of the conditions (a) to (f) of face_margin.c does not
    hold, so that they must not be. Also that the work is counted, and grows like the number of
    faces. */
 #include "visibility/proximity/face_margin.h"
@@ -15,7 +15,7 @@ static lrcs_work work;
 static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_event_bands bands;
-static lrcsi_face_margin face[256];
+static lrcsi_face_margin face[LRCSI_FACES_OF_PART * 256];
 static lrcsi_edge_faces faces[1u << 16];
 
 enum { FACE, CASTER };
@@ -127,7 +127,7 @@ static void margins_of_a_ball_above_a_disc_have_their_sign(void **state)
         assert_int_equal(face[FACE].causes, 1u << CASTER);
         check_abs(face[FACE].area, polygon_beyond_circle(0.3), face[FACE].error);
         check_most(face[FACE].error, 0.1 * error_without_signs(CASTER));
-        assert_false(face[CASTER].known);
+        assert_false(face[LRCSI_FACES_OF_PART * CASTER].known);
     }
 }
 
@@ -345,7 +345,7 @@ static void margins_of_parts_that_pierce_the_face(void **state)
         lrcsi_outline cut;
         double err;
         assert_true(lrcsi_outline_cut(&bands.orders.outline[CASTER], &view,
-                                      scene.part[FACE].first_facet, &cut, &err));
+                                      scene.part[FACE].first_facet, 0, &cut, &err));
         check_most(cut.k, 16 * bands.orders.outline[CASTER].k);
         check_most(face[FACE].error, 0.05 * cut.k * sqrt(true_area));
     }
@@ -539,14 +539,107 @@ static void margins_on_faces_one_behind_the_other(void **state)
     for (uint32_t i = 0; i < bands.events.count; i++) {
         all += bands.events.part[i] == CASTER;
         both += bands.events.part[i] == CASTER && lrcsi_edge_faces_hold(&faces[i], FACE) &&
-                lrcsi_edge_faces_hold(&faces[i], 2);
+                lrcsi_edge_faces_hold(&faces[i], LRCSI_FACES_OF_PART * 2);
     }
     assert_true(edges > 20 && both == edges && all == edges);
-    check_abs(face[2].area, polygon_beyond_circle(0.3), face[2].error);
-    check_most(face[2].error, 0.1 * error_without_signs(CASTER));
-    assert_true(face[FACE].known && face[3].known && face[4].known);
-    assert_false(face[5].known);
+    check_abs(face[LRCSI_FACES_OF_PART * 2].area, polygon_beyond_circle(0.3),
+              face[LRCSI_FACES_OF_PART * 2].error);
+    check_most(face[LRCSI_FACES_OF_PART * 2].error, 0.1 * error_without_signs(CASTER));
+    assert_true(face[FACE].known && face[LRCSI_FACES_OF_PART * 3].known &&
+                face[LRCSI_FACES_OF_PART * 4].known);
+    assert_false(face[LRCSI_FACES_OF_PART * 5].known);
     check_most(face[FACE].error, 1e-12);
+}
+
+/* A face of a box, turned or not, or a plate: all of the margin is known. */
+static void margins_on_rectangles_have_their_sign(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.1, -0.2, 1};
+    const lrcs_shape shapes[2] = {{.kind = LRCS_SHAPE_BOX, .size = {3, 2.5, 1}},
+                                  {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}}};
+    for (int i = 0; i < 8; i++) {
+        lrcs_recipe_part part[2] = {part_at(shapes[i % 2], 0, 0, 0),
+                                    part_at(ball_of(0.3), 0.2 + 0.1, -0.15 - 0.2, 1.5)};
+        if (i & 2) {
+            part[FACE].place.rotate[0][0] = part[FACE].place.rotate[1][1] = 0.8;
+            part[FACE].place.rotate[1][0] = 0.6;
+            part[FACE].place.rotate[0][1] = -0.6;
+        }
+        find_margins(part, 2, i & 4 ? 1e-3 : 1e-4, d, NULL);
+        assert_true(face[FACE].known && edges_on_face(CASTER) > 20);
+        check_abs(face[FACE].area, polygon_beyond_circle(0.3), face[FACE].error);
+        check_most(face[FACE].error, 0.1 * error_without_signs(CASTER));
+    }
+}
+
+/* The edge between two faces of a box runs below the ball: each has a part of the margin, and what
+   is near the edge is open. */
+static void margins_on_two_faces_of_a_box(void **state)
+{
+    (void)state;
+    const double d[3] = {1, 1.2, 0.1};
+    const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {2, 2, 2}};
+    lrcs_recipe_part part[2] = {part_at(box, 0, 0, 0), part_at(ball_of(0.3), 2, 2.2, 0.1)};
+    find_margins(part, 2, 1e-3, d, NULL);
+    assert_true(face[1].known && face[2].known && !face[0].known);
+    double length = 0;
+    for (uint32_t i = 0; i < bands.events.count; i++) {
+        length += bands.events.part[i] == CASTER
+                      ? 0.5 * (bands.areas[i].gain + bands.areas[i].loss < HUGE_VAL
+                                   ? bands.areas[i].gain + bands.areas[i].loss
+                                   : 0)
+                      : 0;
+    }
+    check_abs(face[1].area + face[2].area, polygon_beyond_circle(0.3),
+              face[1].error + face[2].error);
+    check_most(face[1].error + face[2].error, 0.2 * length);
+    check_most(0.001 * length, face[1].error + face[2].error);
+}
+
+/* (a): N across the border of a plate; (e): a box that intersects the plate below the ball, and has
+   no pair with it, because both are exact. */
+static void not_at_a_border_or_a_contact_of_a_plate(void **state)
+{
+    (void)state;
+    const double d[3] = {0.02, -0.05, 1};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}};
+    const lrcs_shape wedge = {.kind = LRCS_SHAPE_BOX, .size = {0.4, 4, 0.2}};
+    lrcs_recipe_part border[2] = {part_at(plate, 0, 0, 0), part_at(ball_of(0.3), 1.5, 0, 1.5)};
+    find_margins(border, 2, 1e-3, d, NULL);
+    assert_true(face[FACE].known);
+    check_most(1e-3 * error_without_signs(CASTER), face[FACE].error);
+    lrcs_recipe_part crossed[3] = {part_at(plate, 0, 0, 0), part_at(ball_of(0.3), 0.2, 0, 1.5),
+                                   part_at(wedge, 0.3, 0, -0.1)};
+    crossed[2].place.rotate[0][0] = crossed[2].place.rotate[2][2] = 0.8; /* about y */
+    crossed[2].place.rotate[0][2] = 0.6;
+    crossed[2].place.rotate[2][0] = -0.6;
+    find_margins(crossed, 3, 1e-3, d, NULL);
+    assert_true(face[FACE].known);
+    check_most(0.02 * error_without_signs(CASTER), face[FACE].error);
+}
+
+/* Far from the origin, rounding of its corners turns the facets of a plate against each other: it is
+   no face. */
+static void not_on_a_plate_that_rounding_turns(void **state)
+{
+    (void)state;
+    const double far = 1048576.3;
+    const double turn[3][3] = {{0.6, -0.64, 0.48}, {0.8, 0.48, -0.36}, {0, 0.6, 0.8}};
+    const double d[3] = {0.48, -0.36, 0.8};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {2, 2, 0}};
+    lrcs_recipe_part part[2] = {
+        part_at(plate, far, 2 * far, 3 * far),
+        part_at(ball_of(0.3), far + 1.5 * d[0], 2 * far + 1.5 * d[1], 3 * far + 1.5 * d[2])};
+    memcpy(part[FACE].place.rotate, turn, sizeof turn);
+    find_margins(part, 2, 1e-3, d, NULL);
+    const lrcsi_normal *n = view.prepared->normal;
+    double turned = 0;
+    for (int k = 0; k < 3; k++) {
+        turned = fmax(turned, fabs(n[0].high[k] / n[0].length - n[1].high[k] / n[1].length));
+    }
+    assert_true(turned > 1e-11); /* this is such a plate */
+    assert_false(face[FACE].known);
 }
 
 /* Discs with a ball above each, far apart: four times as many take four times the steps. With fewer
@@ -568,7 +661,7 @@ static void steps_grow_like_the_number_of_faces(void **state)
         find_margins(part, 2 * pairs, 0.1, oblique, &meter);
         taken[many] = meter.taken;
         for (uint32_t i = 0; i < pairs; i++) {
-            assert_true(face[2 * i].known);
+            assert_true(face[LRCSI_FACES_OF_PART * (2 * i)].known);
         }
         const uint64_t limits[2] = {0, meter.taken / 2};
         for (int half = 0; half < 2; half++) {
@@ -577,7 +670,7 @@ static void steps_grow_like_the_number_of_faces(void **state)
             find_margins(part, 2 * pairs, 0.1, oblique, &limited);
             assert_true(limited.spent && limited.taken <= limits[half]);
             for (uint32_t i = 0; i < pairs; i++) {
-                known += face[2 * i].known ? 1 : 0;
+                known += face[LRCSI_FACES_OF_PART * (2 * i)].known ? 1 : 0;
             }
             assert_true(half ? known > 0 && known < pairs : known == 0);
         }
@@ -627,6 +720,10 @@ int main(void)
         cmocka_unit_test(beside_crossings_of_two_outlines),
         cmocka_unit_test(not_beside_a_facet_in_the_plane),
         cmocka_unit_test(nothing_changes_on_a_hidden_face),
+        cmocka_unit_test(margins_on_rectangles_have_their_sign),
+        cmocka_unit_test(margins_on_two_faces_of_a_box),
+        cmocka_unit_test(not_at_a_border_or_a_contact_of_a_plate),
+        cmocka_unit_test(not_on_a_plate_that_rounding_turns),
         cmocka_unit_test(margins_on_faces_one_behind_the_other),
         cmocka_unit_test(little_memory_and_few_steps_leave_more_open),
         cmocka_unit_test(steps_grow_like_the_number_of_faces),

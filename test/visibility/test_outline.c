@@ -351,7 +351,7 @@ static void a_shape_is_in_front_of_the_plane_that_it_stands_on(void **state)
                       (const double[3]){0.3, 0.2, cases[k].direction}, 20, 30, 40);
             lrcsi_outline o = lrcsi_outline_make(&view, 0);
             uint32_t plate = scene.part[1].first_facet;
-            assert_int_equal(lrcsi_outline_in_front(&o, &view, plate, &err), cases[k].expected);
+            assert_int_equal(lrcsi_outline_in_front(&o, &view, plate, 0, &err), cases[k].expected);
             if (cases[k].expected) {
                 check_most(err, 1e-12);
             }

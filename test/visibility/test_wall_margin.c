@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The margins along the event edges of a ball in front of the straight wall of a cylinder, cone or
-   frustum, or of a plane face: their signed area against the circle of the true ball; and that no
+   frustum: their signed area against the circle of the true ball; and that no
    margin is known where one of the conditions of wall_margin.c does not hold. */
 #include "visibility/proximity/proximity_band.h"
 
@@ -153,99 +153,6 @@ static void margins_of_a_tank_seen_edge_on_to_its_base(void **state)
         check_abs(sum.area, want, sum.loose + other);
         check_most(other, 0.2 * (sum.all_gain + sum.all_loss));
     }
-}
-
-/* A plane face of a box, turned or not, or a plate: all of the margin is known, and nothing else is
-   uncertain. */
-static void margins_on_plane_faces_have_their_sign(void **state)
-{
-    (void)state;
-    static const double d[3] = {0.1, -0.2, 1};
-    const lrcs_shape shapes[2] = {{.kind = LRCS_SHAPE_BOX, .size = {3, 2.5, 1}},
-                                  {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}}};
-    for (int i = 0; i < 8; i++) {
-        lrcs_recipe_part part[2] = {part_at(shapes[i % 2], 0, 0, 0),
-                                    ball_at(0.3, 0.2 + 0.1, -0.15 - 0.2, 1.5)};
-        if (i & 2) {
-            part[WALL].place.rotate[0][0] = part[WALL].place.rotate[1][1] = 0.8;
-            part[WALL].place.rotate[1][0] = 0.6;
-            part[WALL].place.rotate[0][1] = -0.6;
-        }
-        find_margins(part, 2, i & 4 ? 1e-3 : 1e-4, d);
-        const wall_sums sum = sum_of_wall();
-        const double want = polygon_beyond_circle(0.3);
-        assert_true(sum.facets == 2); /* both triangles of the face */
-        check_abs(sum.area, want, sum.loose);
-        check_abs(sum.area, want, 0.02 * fabs(want));
-        check_most(sum.loose, 0.1 * (sum.all_gain + sum.all_loss));
-        check_most(sum.gain + sum.loss, 1e-9 * (sum.all_gain + sum.all_loss));
-    }
-}
-
-/* The edge between two faces of a box runs below the ball: F differs on both sides of it, and
-   margins across it have bands. */
-static void margins_across_an_edge_of_a_box_have_bands(void **state)
-{
-    (void)state;
-    const double d[3] = {1, 1, 0.1};
-    const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {2, 2, 2}};
-    lrcs_recipe_part part[2] = {part_at(box, 0, 0, 0), ball_at(0.3, 2, 2, 0.1)};
-    find_margins(part, 2, 1e-3, d);
-    const wall_sums sum = sum_of_wall();
-    assert_true(sum.facets >= 2 && sum.gain + sum.loss > 1e-3 * (sum.all_gain + sum.all_loss));
-    check_most(sum.gain + sum.loss, 0.2 * (sum.all_gain + sum.all_loss));
-    lrcs_recipe_part meeting[2] = {part_at(box, 0, 0, 0), ball_at(0.3, 1.1, 0, 0.1)};
-    find_margins(meeting, 2, 1e-3, d); /* (b) */
-    assert_true(sum_of_wall().facets == 0 && sum_of_wall().all_gain > 0);
-}
-
-/* (a): N across the border of a plate; (e): a box that intersects the plate below the ball, and has
-   no pair with it, because both are exact. */
-static void margins_at_a_border_or_a_contact_have_bands(void **state)
-{
-    (void)state;
-    const double d[3] = {0.02, -0.05, 1};
-    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {3, 2.5, 0}};
-    const lrcs_shape wedge = {.kind = LRCS_SHAPE_BOX, .size = {0.4, 4, 0.2}};
-    lrcs_recipe_part border[2] = {part_at(plate, 0, 0, 0), ball_at(0.3, 1.5, 0, 1.5)};
-    find_margins(border, 2, 1e-3, d);
-    wall_sums sum = sum_of_wall();
-    const double gain = sum.gain + sum.loss;
-    assert_true(sum.facets > 0 && gain > 1e-3 * (sum.all_gain + sum.all_loss));
-    lrcs_recipe_part crossed[3] = {part_at(plate, 0, 0, 0), ball_at(0.3, 0.2, 0, 1.5),
-                                   part_at(wedge, 0.3, 0, -0.1)};
-    crossed[2].place.rotate[0][0] = crossed[2].place.rotate[2][2] = 0.8; /* about y */
-    crossed[2].place.rotate[0][2] = 0.6;
-    crossed[2].place.rotate[2][0] = -0.6;
-    find_margins(crossed, 3, 1e-3, d);
-    sum = sum_of_wall();
-    assert_true(sum.facets > 0);
-    check_most(0.02 * (sum.all_gain + sum.all_loss), sum.gain + sum.loss);
-}
-
-/* Far from the origin, rounding of its corners turns the facets of a plate against each other: below
-   the diagonal margins have bands. */
-static void margins_across_facets_that_rounding_turns_have_bands(void **state)
-{
-    (void)state;
-    const double far = 1048576.3;
-    const double turn[3][3] = {{0.6, -0.64, 0.48}, {0.8, 0.48, -0.36}, {0, 0.6, 0.8}};
-    const double d[3] = {0.48, -0.36, 0.8};
-    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {2, 2, 0}};
-    lrcs_recipe_part part[2] = {
-        part_at(plate, far, 2 * far, 3 * far),
-        ball_at(0.3, far + 1.5 * d[0], 2 * far + 1.5 * d[1], 3 * far + 1.5 * d[2])};
-    memcpy(part[WALL].place.rotate, turn, sizeof turn);
-    find_margins(part, 2, 1e-3, d);
-    const lrcsi_normal *n = view.prepared->normal;
-    double turned = 0;
-    for (int k = 0; k < 3; k++) {
-        turned = fmax(turned, fabs(n[0].high[k] / n[0].length - n[1].high[k] / n[1].length));
-    }
-    assert_true(turned > 1e-11); /* this is such a plate */
-    const wall_sums sum = sum_of_wall();
-    assert_true(sum.facets == 2);
-    check_most(0.01 * (sum.all_gain + sum.all_loss), sum.gain + sum.loss);
 }
 
 /* The back of a closed wall is never seen, also where its material is two-sided and an open part
@@ -464,10 +371,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
         cmocka_unit_test(margins_of_a_tank_seen_edge_on_to_its_base),
-        cmocka_unit_test(margins_on_plane_faces_have_their_sign),
-        cmocka_unit_test(margins_across_an_edge_of_a_box_have_bands),
-        cmocka_unit_test(margins_at_a_border_or_a_contact_have_bands),
-        cmocka_unit_test(margins_across_facets_that_rounding_turns_have_bands),
         cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
         cmocka_unit_test(no_margin_is_known_without_the_conditions),

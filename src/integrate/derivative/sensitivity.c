@@ -7,8 +7,8 @@
    Visible areas do not depend on materials. Each facet is computed as the sum of Eq. 2 computes it
    (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
    pieces of its round wall, as the mean over its patch, or from its normal. The margins of a flat
-   face, which one of its facets has, and those on a wall or a plane face (lrcsi_areas_margin) are
-   added to visible areas.
+   face, which one of its facets has, and those on a wall (lrcsi_areas_margin) are added to visible
+   areas.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"

@@ -19,8 +19,8 @@ typedef struct lrcsi_areas {
     const unsigned char *answer;
     const lrcsi_moment *moment;         /* of the visible regions of all facets; NULL: not known */
     const lrcsi_wall_terms *wall_terms; /* what facets on curved walls add; NULL: not known */
-    const lrcsi_flat_face *face;      /* [part_count]: margins on flat faces; NULL: none are used */
-    const lrcsi_masked_band *margins; /* its margins facet by facet are used; NULL: none are */
+    const lrcsi_flat_face *face;        /* [faces]: margins on flat faces; NULL: none are used */
+    const lrcsi_masked_band *margins;   /* its margins facet by facet are used; NULL: none are */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */

@@ -174,9 +174,8 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     if (band && run->areas->margins && lrcsi_wall_margin_of(run->areas->margins, facet)) {
         set = band->margin[facet].causes;
     }
-    if (band && lrcsi_flat_face_uses(run->areas->face, run->view, facet)) {
-        const lrcsi_flat_face *face =
-            &run->areas->face[run->view->prepared->scene->facet_part[facet]];
+    const lrcsi_flat_face *face = lrcsi_flat_face_of(run->areas->face, run->view, facet);
+    if (band && face) {
         set |= face->facet == facet ? face->causes : 0;
         const unsigned sides = lrcsi_face_border_sides(run->view, facet);
         own = 0;

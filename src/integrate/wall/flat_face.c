@@ -6,20 +6,20 @@
 
 #include "base/range.h"
 
-/* Decides whether the margins of a part's face are used, and which facet represents it. */
+/* Decides whether the margins of a face are used, and which facet represents it. */
 static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
-                                        const lrcsi_visible_area *visible, uint32_t index)
+                                        const lrcsi_visible_area *visible, uint32_t number)
 {
     const lrcsi_proximity_band *whole = band->whole;
     const lrcsi_view *view = whole->classification->view;
-    const lrcs_part *part = &view->prepared->scene->part[index];
+    const lrcs_part *part = &view->prepared->scene->part[number / LRCSI_FACES_OF_PART];
     const lrcsi_flat_face unused = {.facet = LRCS_NONE};
     lrcsi_flat_face face = unused;
     double most = 0;
-    double with = 2 * whole->face[index].error; /* the sum of both errors, gain and loss */
+    double with = 2 * whole->face[number].error; /* the sum of both errors, gain and loss */
     double without = 0;
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (!lrcsi_face_has_facet(view, f)) {
+        if (lrcsi_face_of(view, f) != number) {
             continue;
         }
         if (whole->gain_aligned[f] < 0) {
@@ -36,9 +36,9 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
         with += lrcsi_min(hidden, projected * whole->gain_aligned[f]) +
                 lrcsi_min(visible[f].high, projected * whole->loss_aligned[f]);
     }
-    face.area = whole->face[index].area;
-    face.error = whole->face[index].error;
-    face.causes = whole->face[index].causes;
+    face.area = whole->face[number].area;
+    face.error = whole->face[number].error;
+    face.causes = whole->face[number].causes;
     return with < without ? face : unused;
 }
 
@@ -46,7 +46,7 @@ void lrcsi_flat_faces_make(const lrcsi_masked_band *band, const lrcsi_visible_ar
                            lrcsi_flat_face *face)
 {
     const lrcs_scene *scene = band->whole->classification->view->prepared->scene;
-    for (uint32_t i = 0; i < scene->part_count; i++) {
+    for (uint32_t i = 0; i < LRCSI_FACES_OF_PART * scene->part_count; i++) {
         face[i] = (lrcsi_flat_face){.facet = LRCS_NONE};
         if (band->whole->face[i].known) {
             face[i] = flat_face_choose(band, visible, i);

@@ -7,7 +7,7 @@
 #include "visibility/base/visible_area.h"
 #include "visibility/proximity/masked_band.h"
 
-/* Of a part. Areas are in projection, scaled. */
+/* Of a face (visibility/proximity/face_frame.h). Areas are in projection, scaled. */
 typedef struct lrcsi_flat_face {
     uint32_t facet; /* the one that represents the face in the sum; LRCS_NONE: margins are not
                               used */
@@ -16,23 +16,24 @@ typedef struct lrcsi_flat_face {
     lrcsi_part_set causes; /* the parts whose outlines the margins belong to */
 } lrcsi_flat_face;
 
-/* Is a facet one of a face whose margins are used? Given: face[part], or NULL. */
-static inline int lrcsi_flat_face_uses(const lrcsi_flat_face *face, const lrcsi_view *view,
-                                       uint32_t facet)
+/* The face of a facet, if its margins are used; NULL if it is on none, or they are not. Given: all
+   faces, or NULL. */
+static inline const lrcsi_flat_face *lrcsi_flat_face_of(const lrcsi_flat_face *face,
+                                                        const lrcsi_view *view, uint32_t facet)
 {
-    return face && face[view->prepared->scene->facet_part[facet]].facet != LRCS_NONE &&
-           lrcsi_face_has_facet(view, facet);
+    const uint32_t number = face ? lrcsi_face_of(view, facet) : LRCS_NONE;
+    return number != LRCS_NONE && face[number].facet != LRCS_NONE ? &face[number] : NULL;
 }
 
 /* What is to be added to the visible area of a facet: 0 for all but one of a face. */
 static inline double lrcsi_flat_face_area(const lrcsi_flat_face *face, const lrcsi_view *view,
                                           uint32_t facet)
 {
-    const lrcsi_flat_face *own = face ? &face[view->prepared->scene->facet_part[facet]] : NULL;
+    const lrcsi_flat_face *own = lrcsi_flat_face_of(face, view, facet);
     return own && own->facet == facet ? own->area : 0;
 }
 
-/* Fills face[part]. Given: the visible areas of all facets. */
+/* Fills face[LRCSI_FACES_OF_PART * part_count]. Given: the visible areas of all facets. */
 void lrcsi_flat_faces_make(const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                            lrcsi_flat_face *face);
 

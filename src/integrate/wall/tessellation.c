@@ -71,7 +71,7 @@
    F_i| and S a (1 + a) sup F. For a facet without bands (mismatch 0) the comparison by the map
    gives the same, since v and w are constant on it and around it.
 
-   On a straight wall, a box or a plate the sum may include the margins of other parts' event edges
+   On a straight wall the sum may include the margins of other parts' event edges
    (visibility/proximity/wall_margin.c): the area by which the true shapes leave more visible in
    them is attributed to the facets there, A to this one, and A F_i is added to M. Then g and
    l are the fractions of the other bands, and T - M has one more term: the integral of F over the
@@ -150,7 +150,7 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
 {
     const lrcs_prepared *p = in->view->prepared;
     const lrcsi_proximity_band *band = in->band->whole;
-    const lrcsi_flat_face *face = &in->face[p->scene->facet_part[facet]];
+    const lrcsi_flat_face *face = lrcsi_flat_face_of(in->face, in->view, facet);
     const lrcsi_deviation d =
         lrcsi_patch_deviation_make(in, facet, incidence, bounds, patches).of_f;
     const double area_err = lrcsi_patch_area_err(p, facet, bounds);
@@ -158,7 +158,9 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
     const double value = (1 + area_err) * d.value_max;
     const double hidden =
         lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band, 0).hidden;
-    const double most = lrcsi_face_border_sides(in->view, facet) != 0 ? HUGE_VAL : hidden;
+    const int may_exceed = lrcsi_patch_part(p, facet)->bounds.reach > 0 &&
+                           lrcsi_face_border_sides(in->view, facet) != 0;
+    const double most = may_exceed ? HUGE_VAL : hidden;
     double either = point + area_err * value;
     if (facet == face->facet) {
         const double projected = incidence->projected * (1 - incidence->error);
@@ -169,9 +171,8 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
 }
 
 /* The error of the margins on a facet, per unit of its area. F in them may be that of a patch next
-   to the facet's, or of the other facet of a plane face (visibility/proximity/wall_margin.c): its
-   normals turn from the facet's by at most 3 `turn`. Where the sum does not include them, all that
-   they add is an error. */
+   to the facet's (visibility/proximity/wall_margin.c): its normals turn from the facet's by at most
+   3 `turn`. Where the sum does not include them, all that they add is an error. */
 static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
                            const lrcsi_incidence *incidence, const lrcs_brdf *brdf,
                            const lrcsi_wall_margin *margin)
@@ -231,9 +232,9 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     if (state == LRCSI_PATCH_AWAY) {
         error.below = area * inside_error(in, facet, &brdf, incidence);
     }
-    if (in->band && lrcsi_flat_face_uses(in->face, view, facet) &&
-        (in->band->whole->mismatch[facet] > 0 ||
-         in->face[p->scene->facet_part[facet]].facet == facet)) { /* 2 */
+    const lrcsi_flat_face *face = lrcsi_flat_face_of(in->face, view, facet);
+    if (in->band && face &&
+        (in->band->whole->mismatch[facet] > 0 || face->facet == facet)) { /* 2 */
         const lrcsi_tessellation unit = face_error(in, facet, incidence, &bounds, patches);
         error.above += area * unit.above;
         error.below += area * unit.below;

@@ -19,7 +19,7 @@ typedef struct lrcsi_tessellation_input {
                                          are to be no corrections */
     const lrcsi_masked_band *band; /* NULL: every front is entirely visible, or the bounds of the
                                          visible areas include what could be hidden */
-    const lrcsi_flat_face *face;   /* [part_count]: margins on flat faces that the sum includes;
+    const lrcsi_flat_face *face;   /* [faces]: margins on flat faces that the sum includes;
                                       NULL: it includes none */
     int margins;                   /* 1: the sum includes the margins of facets
                                       (lrcsi_wall_margin_area) */

@@ -47,8 +47,7 @@ static double vertex_height(const candidate_list *list, uint32_t vertex)
     const lrcs_prepared *p = list->bands->view->prepared;
     double from[3];
     lrcsi_vec3_between(list->face->centre, p->vertex[vertex].x, from);
-    return lrcsi_vec3_dot(from, p->scene->part[list->face->part].axis[2]) *
-           (list->face->det < 0 ? -1 : 1);
+    return lrcsi_vec3_dot(from, list->face->up);
 }
 
 /* Adds the point where an edge between two vertices meets the plane, if it does. */
@@ -64,7 +63,7 @@ static void crossing_add(candidate_list *list, uint32_t low, uint32_t high)
     for (int k = 0; k < 3; k++) {
         x[k] = view->point[low].x[k] + part * (view->point[high].x[k] - view->point[low].x[k]);
     }
-    list->inside &= lrcsi_face_contains(list->face, x, list->distance);
+    list->inside &= list->face->is_rectangle || lrcsi_face_contains(list->face, x, list->distance);
     candidate_add(list, x);
 }
 

@@ -12,8 +12,8 @@ typedef struct lrcsi_cut_polygon {
 } lrcsi_cut_polygon;
 
 /* The polygon of a part, in front of the plane of a face, in the work area. Returns 0 if the part
-   meets the plane within `distance` of the border of the face or outside it, or its facets are not
-   all live; or if there is too little memory, or the limit of steps is reached. */
+   meets the plane within `distance` of the border of a round face or outside it, or its facets are
+   not all live; or if there is too little memory, or the limit of steps is reached. */
 int lrcsi_cut_polygon_make(const lrcsi_event_bands *bands, uint32_t part,
                            const lrcsi_face_frame *face, double distance, lrcs_work *work,
                            lrcsi_cut_polygon *polygon);

@@ -25,7 +25,7 @@ typedef struct lrcsi_edge_margin {
 /* The surface behind it. */
 typedef struct lrcsi_margin_receiver {
     uint32_t part, facet;         /* P, and one of its facets under the edge */
-    const lrcsi_face_frame *face; /* its flat face; NULL: a wall, or a plane face */
+    const lrcsi_face_frame *face; /* its flat face; NULL: a wall */
     double order_err;             /* on a face: the largest of any part */
 } lrcsi_margin_receiver;
 

@@ -571,7 +571,7 @@ void lrcsi_event_rims(lrcsi_event_bands *bands, const lrcsi_band_facet *at, cons
     }
 }
 
-/* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes
+/* The boxes of the facets of parts. They are not enlarged by the parts' reach: the boxes
    that they are compared with are enlarged (lrcsi_edge_search_make). */
 static void make_part_boxes(const lrcsi_view *view, lrcsi_box *box)
 {
@@ -581,7 +581,7 @@ static void make_part_boxes(const lrcsi_view *view, lrcsi_box *box)
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         uint32_t part = p->scene->facet_part[f];
-        if (!p->skip[f] && p->proximity.reach[part] > 0) {
+        if (!p->skip[f]) {
             double low[3];
             double high[3];
             lrcsi_view_bounds(view, p->scene->facet[f].corner, 3, low, high);

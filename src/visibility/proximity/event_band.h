@@ -18,7 +18,7 @@ typedef struct lrcsi_event_bands {
     lrcsi_meter *meter;
     lrcsi_proximity_events events;
     lrcsi_part_orders orders;
-    lrcsi_box *box;             /* part: that of its facets in the view, if the part is curved */
+    lrcsi_box *box;             /* part: that of its facets in the view */
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
                                    and of its facets */
 } lrcsi_event_bands;

@@ -1,20 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which event edges have margins over one flat face alone, and adds the areas of these up.
+/* Decides which event edges, and which sides of parts that pierce the plane of a flat face, have
+   margins over this face alone, and adds the areas of these up.
    What the rest of the face may differ by is decided in visibility/proximity/event_band.c (6), and
    what the areas add to sigma in integrate/wall/flat_face.c. Terms and conditions are those of
    visibility/proximity/proximity_band.c; K, K' and k those of visibility/proximity/outline.h.
 
    The face of a part P: V is the true face, a disc, and U that of the facets, a regular polygon in
-   the same plane. A point x of both is its own image: aligned with itself. So what that file proves
-   in 1 holds for e_P = 0: another part R hides x if and only if its facets do, unless a facet of R
-   is within the slack of x, or an event edge of R is in projection, and not far behind x.
+   the same plane; or both are the same rectangle, a plate or a face of a box. A point x of both is
+   its own image: aligned with itself. So what that file proves in 1 holds for e_P = 0: another part
+   R hides x if and only if its facets do, unless a facet of R is within the slack of x, or an event
+   edge of R is in projection, and not far behind x.
 
    Let an event edge of Q, with ends a and b, L apart in projection, belong to a contour. Let w = 4
    (k + e), where e contains all errors of positions, and let N be the points within w of the edge
    in projection. Its margin is on the face alone if
    (a) N, projected onto the plane of the face, lies in U and V;
-   (b) Q has an outline, and is in front of that plane (outline.c, 1): so it hides the points of the
-       face in K, and its facets those in K', up to e in projection;
+   (b) Q has an outline, and is in front of that plane (outline.c, 1), or a plane separates it, in
+       front, from P (part_order.h): so it hides the points of the face in K, and its facets those
+       in K', up to e in projection, and but for a small area of the face that is added to the
+       error;
    (c) no event edge of a part other than P and Q comes within its slack of N in projection, unless
        it is behind the plane;
    (d) of Q, apart from rims inside K', only such other event edges meet N as follow one another
@@ -66,7 +70,7 @@
    edges nor the distances of its facets from the face count any more (event_band.c, 6). Along the
    border of the face Q hides all or nothing, in truth and for its facets, where no event edge of it
    is near, because sides of K' that lie in the plane have to be farther than 8 k + 4 e_P from the
-   border. */
+   border; a rectangle has no such border. */
 #include "visibility/proximity/face_margin.h"
 
 #include <math.h>
@@ -88,8 +92,9 @@ static const double face_direction[DIRECTIONS][2] = {
 
 /* Another part, beside the plane of a face. */
 typedef struct face_part {
-    int in_front;     /* 1: it is in front of the plane as in (b) */
+    int in_front;     /* 1: it is in front as in (b) */
     double order_err; /* within this, in projection, that is not known; 0 if it is not in front */
+    double unproved;  /* an area of the face, in projection, for which it is not known either */
     double low[DIRECTIONS], high[DIRECTIONS]; /* along these: around its facets near the plane, for
                                                  (e); empty if it is in front */
 } face_part;
@@ -185,7 +190,7 @@ static void face_parts_make(face_job *job)
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const lrcs_scene *scene = p->scene;
-    const double *up = scene->part[job->face.part].axis[2];
+    const double *up = job->face.up;
     const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
     job->order_err = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
@@ -196,12 +201,17 @@ static void face_parts_make(face_job *job)
         face_part *beside = &job->part[i];
         *beside = (face_part){.in_front = 0};
         face_part_limit(beside, HUGE_VAL);
-        beside->in_front =
-            counted && outline->known &&
-            lrcsi_outline_in_front(outline, bands->view, job->face.facet, &beside->order_err);
+        beside->in_front = counted && outline->known &&
+                           lrcsi_outline_in_front(outline, bands->view, job->face.facet,
+                                                  job->face.plane_err, &beside->order_err);
         beside->order_err = beside->in_front ? beside->order_err : 0;
+        if (counted && outline->known && !beside->in_front && i != job->face.part) {
+            beside->in_front =
+                lrcsi_face_part_is_separated_in_front(bands, &job->face, i, &beside->unproved);
+        }
         job->order_err = lrcsi_max(job->order_err, beside->order_err);
-        if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack)) {
+        if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack) ||
+            lrcsi_face_part_is_beside(bands, &job->face, i)) {
             continue;
         }
         if (!lrcsi_meter_take(bands->meter, part->facet_count)) {
@@ -303,7 +313,6 @@ static void facets_make(face_job *job)
 static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
-    const lrcs_part *part = &view->prepared->scene->part[job->face.part];
     double x[2];
     double at[2];
     double point[3];
@@ -318,7 +327,8 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
     }
     lrcsi_face_coordinates(&job->face, x, at);
     for (int k = 0; k < 3; k++) {
-        point[k] = job->face.centre[k] + at[0] * part->axis[0][k] + at[1] * part->axis[1][k];
+        point[k] =
+            job->face.centre[k] + at[0] * job->face.plane[0][k] + at[1] * job->face.plane[1][k];
     }
     const double here[3] = {x[0], x[1], 0};
     const lrcsi_view_box box = lrcsi_view_box_round(view, here, here);
@@ -329,8 +339,7 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
         const int counted = lrcsi_meter_take(job->bands->meter, (uint64_t)items.to - items.from);
         for (uint32_t i = items.from; i < items.to && counted; i++) {
             const uint32_t f = job->facets.item[i];
-            if (view->prepared->scene->facet_part[f] == job->face.part &&
-                lrcsi_face_has_facet(view, f) && facet_may_cover(view, f, x) &&
+            if (lrcsi_face_of(view, f) == job->face.number && facet_may_cover(view, f, x) &&
                 answer == LRCSI_QUERY_NO_ANSWER) {
                 answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
             }
@@ -349,19 +358,22 @@ typedef struct face_area {
 
 /* Where nothing is known, that is between the loss and the gain of outline.c. Of a part of the edge
    its depths tell: a loss may be 2 k beyond its ends. */
-static face_area unknown_area(const lrcsi_edge_margin *m, const lrcsi_outline_areas *whole,
+static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
                               lrcsi_segment_part part)
 {
-    const double k = m->outline->k + m->err;
-    const double shift = LRCSI_ROOT_2_OUTWARD * m->order_err + m->err;
-    const double length = (part.to - part.from) * m->length + 2 * m->err;
     if (!(part.from < part.to)) {
         return (face_area){0, 0};
     }
-    const double gain = lrcsi_min(whole->gain + whole->width * m->order_err,
-                                  length * (lrcsi_min(whole->gain_depth, k) + shift));
-    const double loss = lrcsi_min(whole->loss + whole->width * m->order_err,
-                                  (length + 4 * k) * (lrcsi_min(whole->loss_depth, k) + shift));
+    const lrcsi_outline_areas whole =
+        m->event == LRCS_NONE ? lrcsi_outline_areas_make(m->outline, m->a, m->b, m->side)
+                              : job->bands->areas[m->event];
+    const double k = m->outline->k + m->err;
+    const double shift = LRCSI_ROOT_2_OUTWARD * m->order_err + m->err;
+    const double length = (part.to - part.from) * m->length + 2 * m->err;
+    const double gain = lrcsi_min(whole.gain + whole.width * m->order_err,
+                                  length * (lrcsi_min(whole.gain_depth, k) + shift));
+    const double loss = lrcsi_min(whole.loss + whole.width * m->order_err,
+                                  (length + 4 * k) * (lrcsi_min(whole.loss_depth, k) + shift));
     return (face_area){0.5 * (gain - loss), 0.5 * (gain + loss) * LRCSI_OUTWARD_NANO};
 }
 
@@ -391,14 +403,17 @@ static void area_add(face_area *sum, face_area one)
 
 /* The area along an edge over the face, near which no other one of its part is, but for these gaps.
    Where nothing else is near either, it is known with its sign; what lies farther than w from the
-   face does not count. Given also: upper bounds of the areas along it. */
-static face_area edge_area(face_job *job, const lrcsi_edge_margin *m,
-                           const lrcsi_outline_areas *areas, lrcsi_edge_gaps *gaps, double turn[2])
+   face does not count. */
+static face_area edge_area(face_job *job, const lrcsi_edge_margin *m, lrcsi_edge_gaps *gaps,
+                           double turn[2])
 {
     const lrcsi_margin_receiver receiver = {job->face.part, job->face.facet, &job->face,
                                             job->order_err};
     lrcsi_segment_part left = lrcsi_face_segment_near(&job->face, m->a, m->b, m->width);
     face_area sum = {0, 0};
+    if (lrcsi_segment_part_is_empty(left)) {
+        return sum;
+    }
     lrcsi_edge_gaps_add_outside(gaps, lrcsi_face_segment_inside(&job->face, m->a, m->b, m->width));
     parts_add_gaps(job, m, gaps);
     if (!lrcsi_edge_gaps_are_all(gaps)) {
@@ -409,25 +424,25 @@ static face_area edge_area(face_job *job, const lrcsi_edge_margin *m,
         face_area found;
         if (lrcsi_edge_margin_part(m, gaps, i, turn, &free) && signed_area(job, &free, &found)) {
             area_add(&sum, found);
-            area_add(&sum, unknown_area(m, areas, (lrcsi_segment_part){left.from, free.of.from}));
+            area_add(&sum, unknown_area(job, m, (lrcsi_segment_part){left.from, free.of.from}));
             left.from = free.of.to;
         }
     }
-    area_add(&sum, unknown_area(m, areas, left));
+    area_add(&sum, unknown_area(job, m, left));
     return sum;
 }
 
 /* Notes that one more face includes the margin of an event edge, unless too many do. */
-static int edge_faces_add(lrcsi_edge_faces *faces, uint32_t part)
+static int edge_faces_add(lrcsi_edge_faces *faces, uint32_t face)
 {
     int i = 0;
-    while (i < LRCSI_EDGE_FACES && faces->part[i] != LRCS_NONE) {
+    while (i < LRCSI_EDGE_FACES && faces->face[i] != LRCS_NONE) {
         i++;
     }
     if (i == LRCSI_EDGE_FACES) {
         return 0;
     }
-    faces->part[i] = part;
+    faces->face[i] = face;
     return 1;
 }
 
@@ -441,7 +456,7 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
     double high[3] = {0, 0, 0};
     face_area sum = {0, 0};
     for (int k = 0; k < 2; k++) {
-        const double wide = at->radius * (fabs(at->axis[0][k]) + fabs(at->axis[1][k]));
+        const double wide = lrcsi_face_extent(at, k);
         low[k] = at->view[k] - wide;
         high[k] = at->view[k] + wide;
     }
@@ -455,11 +470,11 @@ static void face_add(face_job *job, lrcsi_face_margin *face, lrcsi_edge_faces *f
         for (uint32_t i = items.from; i < items.to; i++) {
             const uint32_t event = grid->item[i];
             lrcsi_edge_margin m;
-            if (!lrcsi_edge_faces_hold(&faces[event], job->face.part) &&
-                face_edge_make(job, event, &m) && edge_faces_add(&faces[event], job->face.part)) {
+            if (!lrcsi_edge_faces_hold(&faces[event], job->face.number) &&
+                face_edge_make(job, event, &m) && edge_faces_add(&faces[event], job->face.number)) {
                 lrcsi_edge_gaps gaps = {.count = 0};
                 double turn[2] = {0, 0};
-                area_add(&sum, edge_area(job, &m, &bands->areas[event], &gaps, turn));
+                area_add(&sum, edge_area(job, &m, &gaps, turn));
                 *face = (lrcsi_face_margin){1, sum.area, sum.error,
                                             face->causes | lrcsi_part_set_of(m.part), 0};
             }
@@ -479,8 +494,8 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
     lrcsi_cut_polygon polygon;
     double order_err;
     *sum = (face_area){0, 0};
-    int known = outline->known &&
-                lrcsi_outline_cut(outline, bands->view, job->face.facet, &cut, &order_err);
+    int known = outline->known && lrcsi_outline_cut(outline, bands->view, job->face.facet,
+                                                    job->face.plane_err, &cut, &order_err);
     const double wide =
         known ? 8 * cut.k + 4 * p->proximity.reach[job->face.part] + 64 * LRCSI_PROXIMITY_ERR : 0;
     known = known && lrcsi_cut_polygon_make(bands, part, &job->face, wide, job->work, &polygon) &&
@@ -488,41 +503,68 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
     for (uint32_t i = 0; known && i < polygon.count; i++) {
         const double *a = polygon.corner[i];
         const double *b = polygon.corner[(i + 1) % polygon.count];
-        const lrcsi_outline_areas areas = lrcsi_outline_areas_make(&cut, a, b, 1);
         lrcsi_edge_margin m;
         if (lrcsi_edge_margin_make_side(&cut, part, a, b, order_err, &m)) {
             lrcsi_edge_gaps gaps = {.count = 0};
             double turn[2];
             lrcsi_cut_polygon_find_gaps(&polygon, i, &m, &gaps, turn);
-            area_add(sum, edge_area(job, &m, &areas, &gaps, turn));
+            area_add(sum, edge_area(job, &m, &gaps, turn));
         } else {
-            area_add(sum, unknown_area(&m, &areas, (lrcsi_segment_part){0, 1}));
+            area_add(sum, unknown_area(job, &m, (lrcsi_segment_part){0, 1}));
         }
     }
     job->work->used = mark;
     return known && isfinite(sum->area + sum->error);
 }
 
+/* May a part other than the face's have margins on it? */
+static int part_has_margins(const face_job *job, uint32_t part)
+{
+    return part != job->face.part && job->bands->orders.outline[part].known &&
+           !lrcsi_face_part_is_beside(job->bands, &job->face, part);
+}
+
 /* Adds the areas along the outlines of parts that pierce the face. */
 static void face_add_cut(face_job *job, lrcsi_face_margin *face)
 {
     const lrcs_prepared *p = job->bands->view->prepared;
-    const double *up = p->scene->part[job->face.part].axis[2];
     for (uint32_t i = 0; i < p->scene->part_count && i < LRCSI_PART_SET_SINGLE; i++) {
         const double slack =
             2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
         face_area sum = {face->area, face->error};
         face_area one;
+        if (!part_has_margins(job, i) || part_is_far(job, i, job->face.up, slack)) {
+            continue;
+        }
         if (!job->parts_known) {
             face_parts_make(job);
         }
-        if (i != job->face.part && !job->part[i].in_front && !part_is_far(job, i, up, slack) &&
-            cut_area(job, i, &one)) {
+        if (!job->part[i].in_front && cut_area(job, i, &one)) {
             area_add(&sum, one);
             *face = (lrcsi_face_margin){1, sum.area, sum.error, face->causes | lrcsi_part_set_of(i),
                                         face->cut | lrcsi_part_set_of(i)};
         }
     }
+}
+
+/* Adds the areas for which it is not proved that parts are in front. */
+static void face_add_unproved(const face_job *job, lrcsi_face_margin *face)
+{
+    const uint32_t parts = job->bands->view->prepared->scene->part_count;
+    for (uint32_t i = 0; i < parts && face->known; i++) {
+        face->error += job->part[i].unproved * LRCSI_OUTWARD_NANO;
+    }
+}
+
+/* May a face have margins? */
+static int face_has_margins(const face_job *job)
+{
+    const uint32_t parts = job->bands->view->prepared->scene->part_count;
+    int has = 0;
+    for (uint32_t i = 0; i < parts && !has; i++) {
+        has = part_has_margins(job, i);
+    }
+    return has;
 }
 
 size_t lrcsi_face_margins_need(const lrcs_prepared *p)
@@ -544,12 +586,15 @@ void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *cla
     for (uint32_t i = 0; i < bands->events.count; i++) {
         faces[i] = none;
     }
-    for (uint32_t i = 0; i < scene->part_count; i++) {
+    for (uint32_t i = 0; i < LRCSI_FACES_OF_PART * scene->part_count; i++) {
+        const int is_box = scene->part[i / LRCSI_FACES_OF_PART].kind == LRCS_SHAPE_BOX;
         face[i] = (lrcsi_face_margin){.known = 0};
         job.parts_known = 0;
-        if (job.part && lrcsi_face_frame_make(bands, i, &job.face)) {
+        if (job.part && (is_box || i % LRCSI_FACES_OF_PART == 0) &&
+            lrcsi_face_frame_make(bands, i, &job.face) && face_has_margins(&job)) {
             face_add(&job, &face[i], faces);
             face_add_cut(&job, &face[i]);
+            face_add_unproved(&job, &face[i]);
         }
     }
     work->used = mark;

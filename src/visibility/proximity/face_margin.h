@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The flat face that a part shows the laser, behind the outlines of true curved shapes and of their
+/* The flat faces that parts show the laser, behind the outlines of true curved shapes and of their
    facets: how much more of it the true shapes leave visible than their facets do, in the margins
    along event edges over it. The proximity band bounds the difference elsewhere on the face
    (visibility/proximity/event_band.c, 6). */
@@ -9,9 +9,9 @@
 #include "visibility/proximity/face_frame.h"
 #include "visibility/uniform/classify.h"
 
-/* Of a part. */
+/* Of a face. */
 typedef struct lrcsi_face_margin {
-    int known;             /* 0: the part has no such face, or nothing is known; the others are not
+    int known;             /* 0: there is no such face, or nothing is known; the others are not
                               set */
     double area;           /* in projection, scaled: what the true shapes leave visible of the face
                               in these margins, less what their facets leave */
@@ -22,23 +22,24 @@ typedef struct lrcsi_face_margin {
                               differently */
 } lrcsi_face_margin;
 
-/* The parts whose faces include the margin of an event edge, beside one another or one behind the
-   other; LRCS_NONE: no further part. */
+/* The faces that include the margin of an event edge, beside one another or one behind the
+   other; LRCS_NONE: no further face. */
 #define LRCSI_EDGE_FACES 4
 typedef struct lrcsi_edge_faces {
-    uint32_t part[LRCSI_EDGE_FACES];
+    uint32_t face[LRCSI_EDGE_FACES];
 } lrcsi_edge_faces;
 
-static inline int lrcsi_edge_faces_hold(const lrcsi_edge_faces *faces, uint32_t part)
+static inline int lrcsi_edge_faces_hold(const lrcsi_edge_faces *faces, uint32_t face)
 {
-    return faces->part[0] == part || faces->part[1] == part || faces->part[2] == part ||
-           faces->part[3] == part;
+    return faces->face[0] == face || faces->face[1] == face || faces->face[2] == face ||
+           faces->face[3] == face;
 }
 
-/* Fills face[part]: the areas along all event edges over the face. Where the margin of an edge, or
-   of a part of one, lies on the face alone, its area is known with its sign; elsewhere it is
-   between the loss and the gain of visibility/proximity/outline.h. Also returned: faces[event].
-   Where steps or memory run out, fewer margins are known. Scratch memory is released. */
+/* Fills face[LRCSI_FACES_OF_PART * part_count]: the areas along all event edges over each face.
+   Where the margin of an edge, or of a part of one, lies on the face alone, its area is known with
+   its sign; elsewhere it is between the loss and the gain of visibility/proximity/outline.h. Also
+   returned: faces[event]. Where steps or memory run out, fewer margins are known. Scratch memory is
+   released. */
 void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces);
 

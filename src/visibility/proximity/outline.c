@@ -163,7 +163,7 @@ typedef struct outline_plane {
    vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
    surface differs from its own by the rounding of its corners. */
 static outline_plane outline_plane_make(const lrcsi_outline *o, const lrcsi_view *view,
-                                        uint32_t facet)
+                                        uint32_t facet, double plane_err)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *own = &p->scene->part[p->scene->facet_part[facet]];
@@ -181,7 +181,7 @@ static outline_plane outline_plane_make(const lrcsi_outline *o, const lrcsi_view
     }
     plane.level = lrcsi_vec3_dot(from, n);
     const double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
-    plane.e = 2 * o->err + 64 * LRCSI_U * far;
+    plane.e = 2 * o->err + 64 * LRCSI_U * far + plane_err;
     if (own->bounds.reach > 0) {
         plane.e += normal_err * far + 2 * ldexp(own->bounds.position_err, -p->exponent);
     }
@@ -203,17 +203,17 @@ static double plane_open(const lrcsi_outline *o, const outline_plane *plane)
 }
 
 int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
-                           double *err)
+                           double plane_err, double *err)
 {
-    const outline_plane plane = outline_plane_make(o, view, facet);
+    const outline_plane plane = outline_plane_make(o, view, facet, plane_err);
     *err = plane_open(o, &plane);
     return view->facing[facet] > 0 && plane.behind <= plane.e && *err <= 0.5 * o->k;
 }
 
 int lrcsi_outline_cut(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
-                      lrcsi_outline *cut, double *err)
+                      double plane_err, lrcsi_outline *cut, double *err)
 {
-    outline_plane plane = outline_plane_make(o, view, facet);
+    outline_plane plane = outline_plane_make(o, view, facet, plane_err);
     plane.height -= o->k; /* of the solid of the facets as well */
     *err = plane_open(o, &plane);
     *cut = *o;

@@ -35,19 +35,19 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t part);
 /* Is a rim edge of the part, beside a facet with the given facing, surely inside K'? */
 int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, int facing);
 
-/* Is the solid in front of the plane of a flat facet that faces the laser? If so, Q hides
-   exactly the points of the plane whose projection lies in K, and its facets those in K', except
-   within a distance of *err in projection, at most k / 2, of the boundary: for B and S^ together,
-   it is to be added to delta. */
+/* Is the solid in front of the plane of a flat facet that faces the laser, from which the points
+   that matter are no farther than plane_err? If so, Q hides exactly the points of the plane whose
+   projection lies in K, and its facets those in K', except within a distance of *err in projection,
+   at most k / 2, of the boundary: for B and S^ together, it is to be added to delta. */
 int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
-                           double *err);
+                           double plane_err, double *err);
 
 /* If a closed solid is in front of such a plane in part, and far enough: the outline of that part.
    Of both B and S^ only what is in front of the plane counts, k is a bound on its Hausdorff
    distance, and Q hides exactly the points of the plane whose projection lies in the new K, except
    within a distance of *err, as above. Returns 0 if it is not. */
 int lrcsi_outline_cut(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
-                      lrcsi_outline *cut, double *err);
+                      double plane_err, lrcsi_outline *cut, double *err);
 
 /* Upper bounds of the areas in projection, along one edge, where points y may be gained and lost,
    and of the distances of such points from the edge. `width` times delta is to be added to the

@@ -86,7 +86,8 @@ int lrcsi_part_is_in_front(lrcsi_part_orders *orders, uint32_t facet, uint32_t p
     if (!outline->known) {
         return 0;
     }
-    if (is_flat && view->facing[facet] > 0 && lrcsi_outline_in_front(outline, view, facet, err)) {
+    if (is_flat && view->facing[facet] > 0 &&
+        lrcsi_outline_in_front(outline, view, facet, 0, err)) {
         return 1;
     }
     *err = 0;

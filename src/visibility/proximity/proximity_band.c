@@ -101,7 +101,7 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     lrcsi_event_bands bands;
-    lrcsi_edge_faces *faces; /* event: the parts whose faces include its margin */
+    lrcsi_edge_faces *faces; /* event: the faces that include its margin */
     lrcsi_wall_margins walls;
     lrcsi_box curved;         /* of all facets of curved parts, in the view */
     lrcsi_marks considered;   /* events: those that the search for the facet has met */
@@ -233,13 +233,13 @@ static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t coun
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
-    const int on_face = lrcsi_face_has_facet(job->view, facet);
-    const uint32_t own = job->view->prepared->scene->facet_part[facet];
+    const uint32_t face = lrcsi_face_of(job->view, facet);
     for (uint32_t i = 0; i < count; i++) {
         lrcsi_event_band fractions;
         lrcsi_event_sides(&job->bands, at, job->listed[i], &band->sides[facet]);
-        if (on_face && (lrcsi_edge_faces_hold(&job->faces[job->listed[i]], own) ||
-                        pierces_face(job, facet, job->bands.events.part[job->listed[i]]))) {
+        if (face != LRCS_NONE &&
+            (lrcsi_edge_faces_hold(&job->faces[job->listed[i]], face) ||
+             pierces_face(job, facet, job->bands.events.part[job->listed[i]]))) {
             continue; /* its area is that of a margin */
         }
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
@@ -320,6 +320,12 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[p->scene->facet_part[facet]];
     const lrcsi_edge_search where = lrcsi_band_search(&job->bands, facet);
+    const uint32_t face = lrcsi_face_of(view, facet);
+    const int on_face = face != LRCS_NONE && job->band->face[face].known;
+    if (on_face) {
+        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
+        job->band->sides[facet] = sides_free;
+    }
     if (reach == 0 && /* 1 */
         (where.low[0] > job->curved.high[0] || where.low[1] > job->curved.high[1] ||
          where.high[0] < job->curved.low[0] || where.high[1] < job->curved.low[1])) {
@@ -328,14 +334,8 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
     job->band->margin[facet].causes = job->band->parts[facet];
-    const int on_face =
-        job->band->face[p->scene->facet_part[facet]].known && lrcsi_face_has_facet(view, facet);
     job->unproved_aligned = 0;
     const int aligned = on_face || begin_aligned(job, facet);
-    if (on_face) {
-        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
-        job->band->sides[facet] = sides_free;
-    }
     if (!found) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
         job->band->gain_aligned[facet] = -1;
@@ -402,7 +402,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_segment_part)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_face_margin)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(LRCSI_FACES_OF_PART, p->scene->part_count,
+                                                  sizeof(lrcsi_face_margin)));
     need = lrcsi_work_add(need, lrcsi_event_bands_need(p));
     const size_t faces = lrcsi_face_margins_need(p); /* released before walls take memory */
     const size_t walls = lrcsi_wall_margins_need(p);
@@ -413,8 +414,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
 }
 
-/* Completes the fractions of a facet beside the margins on its wall or plane face. Each is a sum of
-   at most two terms for each event edge and one for each part. */
+/* Completes the fractions of a facet beside the margins on its wall. Each is a sum of at most two
+   terms for each event edge and one for each part. */
 static void margin_finish(const lrcsi_proximity_band *band, uint32_t facet)
 {
     lrcsi_wall_margin *margin = &band->margin[facet];
@@ -428,8 +429,8 @@ static void margin_finish(const lrcsi_proximity_band *band, uint32_t facet)
 /* Computes all fractions:
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
-   3. for each facet that matters: event edges near it, with their margins on walls and plane faces,
-      and grazing incidence (facet_fractions);
+   3. for each facet that matters: event edges near it, with their margins on straight walls, and
+      grazing incidence (facet_fractions);
    4. the fractions beside those margins; mismatch, gain, loss and rows are limited to 1.
       gain_aligned and loss_aligned may exceed it: their users compare the areas that they stand for
       with the facet's. */
@@ -453,7 +454,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
     job->curved = lrcsi_box_empty();
     for (uint32_t i = 0; i < p->scene->part_count; i++) {
         const lrcsi_box *box = &job->bands.box[i];
-        if (box->low[0] <= box->high[0]) {
+        if (p->proximity.reach[i] > 0 && box->low[0] <= box->high[0]) {
             lrcsi_box_add(&job->curved, box->low);
             lrcsi_box_add(&job->curved, box->high);
         }
@@ -524,7 +525,8 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
     m.rim = lrcsi_work_take(work, facets, sizeof *m.rim);
-    m.face = lrcsi_work_take_zero(work, view->prepared->scene->part_count, sizeof *m.face);
+    m.face = lrcsi_work_take_zero(
+        work, LRCSI_FACES_OF_PART * (size_t)view->prepared->scene->part_count, sizeof *m.face);
     m.margin = lrcsi_work_take(work, facets, sizeof *m.margin);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);

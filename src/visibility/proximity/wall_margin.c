@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which event edges have margins over one straight wall, or one plane face of a box or
-   plate, alone, and adds the areas of these to the facets that they meet. What that adds to sigma
+/* Decides which event edges have margins over one straight wall alone, and adds the areas of these
+   to the facets that they meet. What that adds to sigma
    is decided in integrate/wall/tessellation.c. Terms and conditions are those of
    visibility/proximity/proximity_band.c; K, K' and k those of visibility/proximity/outline.h; w, N,
    (c) and (d) those of visibility/proximity/face_margin.c.
 
-   P is a closed part with a straight wall (a cylinder, cone or frustum), or a box or plate, all of
-   whose faces count as its wall; there x is y, and delta 0. Q is another part with an outline. An
+   P is a closed part with a straight wall: a cylinder, cone or frustum. Q is another part with an
+   outline. An
    event edge of Q that belongs to a contour has the ends a and b, L apart in projection. The points
    x of the true wall and y of the facets that the map relates are in projection at most delta <= k
    apart. The margin of the edge is known on the wall if
@@ -16,8 +16,8 @@
    (c) no event edge of a part other than Q comes within its slack of N in projection, unless its
        part is behind P; for P itself the slack is two reaches;
    (d) of Q, only such other event edges meet N as follow the edge, as in face_margin.c;
-   (e) at these facets, (1) holds for no part that is neither in front of P nor behind it, and no
-       part meets their interior in N; the fractions of facets for which rounding leaves this or (b)
+   (e) at these facets, (1) holds for no part that is neither in front of P nor behind it; the
+       fractions of facets for which rounding leaves this or (b)
        open (part_order.c) count as gained and lost;
    (f) of one point of N beyond the edge, seen from the facets of Q, it is known whether the facet
        of the wall there is visible.
@@ -41,8 +41,8 @@
    sqrt(2) delta.
 
    A part of the margin, t0 <= t <= t1, may lie on facets next to the one to which it is attributed.
-   It is tested that these are within one row and one sector of it, or on the same plane face, their
-   normals equal but for rounding, so that F of their patches is not far from its own. On another
+   It is tested that these are within one row and one sector of it, so that F of their patches is
+   not far from its own. On another
    facet the same area in projection stands for cos / cos' times as much of the wall as on its own:
    where the margin may be on it, F sup |cos / cos' - 1| is an error, twice if F differs as well. */
 #include "visibility/proximity/wall_margin.h"
@@ -65,10 +65,6 @@
 /* Nor one whose margin may be on facets that are so much more oblique than those to which it is
    attributed. */
 #define COS_RATIO_ERR_MAX 1.0
-
-/* Nor one on both facets of a plane face if rounding of their corners has turned their normals,
-   rad, by more than this: F counts as the same on both (integrate/wall/tessellation.c). */
-#define PLANE_TURN_MAX 1e-12
 
 /* What is left of the list of a facet's pairs: all; those that matter; those, but too many. */
 enum { PAIRS_ALL, PAIRS_REDUCED, PAIRS_MANY };
@@ -136,40 +132,6 @@ static int pairs_reduce(lrcsi_wall_margins *job, uint32_t facet)
     return 1;
 }
 
-/* Is a facet of another part, which meets the given one or is met by it, in N? */
-static int contact_is_near(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                           uint32_t facet, uint32_t other)
-{
-    lrcsi_event_bands *bands = job->bands;
-    const uint32_t *part = bands->view->prepared->scene->facet_part;
-    const lrcsi_edge_rectangle box =
-        lrcsi_edge_rectangle_make(bands->view, other, m->edge, m->width + m->err);
-    return part[other] != part[facet] &&
-           (!lrcsi_meter_take(bands->meter, 1) ||
-            lrcsi_edge_rectangle_slice(bands->view, other, &box).count > 0);
-}
-
-/* May another part meet an exact facet in N? If both are exact, their slack is 0, and they have no
-   pairs; but where they intersect, one begins to hide the other without an event edge. Contacts of
-   the facet's interior are its own; those along its sides belong to the other facet. */
-static int facet_has_contact(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
-                             uint32_t facet)
-{
-    const lrcs_prepared *p = job->bands->view->prepared;
-    const lrcsi_intersections *contacts = &p->intersections;
-    int met = 0;
-    if (p->proximity.reach[p->scene->facet_part[facet]] > 0 || contacts->met[facet] == 0) {
-        return 0;
-    }
-    for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1] && !met; i++) {
-        met = contact_is_near(job, m, facet, contacts->entry[i].other);
-    }
-    for (uint32_t i = job->first_contact[facet]; i != LRCS_NONE && !met; i = job->next_contact[i]) {
-        met = contact_is_near(job, m, facet, job->contact[i]);
-    }
-    return met;
-}
-
 /* Is (1) excluded for the points of a facet that are in N? A facet of another part within the slack
    of such a point is, in projection, within the slack of N. */
 static int facet_is_apart(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
@@ -188,27 +150,19 @@ static int facet_is_apart(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, u
         apart = lrcsi_meter_take(bands->meter, 1) &&
                 lrcsi_edge_rectangle_slice(bands->view, other, &box).count == 0;
     }
-    return apart && !facet_has_contact(job, m, facet);
+    return apart;
 }
 
-/* The position of a facet on a straight wall, or on a box or plate, of which each plane face has
-   two successive facets (mesh/shape/tessellate.c), and counts as a row that is next to no other.
-   Returns 0 if it is on neither. */
+/* The position of a facet on a straight wall. Returns 0 if it is not on one. */
 static int facet_position(const lrcs_prepared *p, uint32_t facet, lrcsi_wall_patch *at)
 {
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    const uint32_t number = facet - part->first_facet;
-    if (lrcsi_shape_is_plane_faced(part->kind)) {
-        *at = (lrcsi_wall_patch){.row = number / 2 * 2};
-        return part->solid || part->kind == LRCS_SHAPE_PLATE;
-    }
     return part->rigid && part->bounds.reach > 0 && part->solid &&
            !lrcsi_proximity_on_round_wall(p, facet) &&
-           lrcsi_tessellate_patch(&part->shape, &part->divisions, number, at);
+           lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, at);
 }
 
-/* May a facet have margins? It is on a straight wall, a box or a plate, and not seen edge-on to
-   within rounding. */
+/* May a facet have margins? It is on a straight wall, and not seen edge-on to within rounding. */
 static int facet_applies(const lrcsi_wall_margins *job, uint32_t facet)
 {
     const lrcsi_view *view = job->bands->view;
@@ -345,20 +299,6 @@ static int margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin *
     return 1;
 }
 
-/* May two facets be on one plane face, and turned against each other? Their turn is at most the sum
-   of the differences between the components of their unit normals. */
-static int is_turned(const lrcs_prepared *p, uint32_t facet, uint32_t other)
-{
-    const lrcsi_normal *a = &p->normal[facet];
-    const lrcsi_normal *b = &p->normal[other];
-    double turn = 0;
-    for (int k = 0; k < 3; k++) {
-        turn += fabs(a->high[k] / a->length - b->high[k] / b->length);
-    }
-    return lrcsi_shape_is_plane_faced(p->scene->part[p->scene->facet_part[facet]].kind) &&
-           !(turn <= PLANE_TURN_MAX);
-}
-
 /* Are the patches above each part of the margin next to the facet to which it is attributed? Also
    finds how much more of their area a part of the view plane stands for. */
 static int margin_facets_are_local(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
@@ -386,9 +326,8 @@ static int margin_facets_are_local(const lrcsi_wall_margins *job, const lrcsi_ed
                 fabs(own / cosine - 1) + 4 * LRCSI_VIEW_COS_ERR / lrcsi_min(own, cosine);
             one->cos_ratio_err = lrcsi_max(one->cos_ratio_err, cos_ratio_err);
             one->neighbour_err += cos_ratio_err * length;
-            local = is_next_to(&one->patch, &other->patch, around) &&
-                    cos_ratio_err < COS_RATIO_ERR_MAX &&
-                    !is_turned(view->prepared, one->facet, other->facet);
+            local =
+                is_next_to(&one->patch, &other->patch, around) && cos_ratio_err < COS_RATIO_ERR_MAX;
         }
     }
     return local;
@@ -557,9 +496,8 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_margin_facet)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(3, facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->intersections.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_unproved)));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
@@ -570,7 +508,6 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
 {
     const uint32_t facets = bands->view->prepared->scene->facet_count;
     const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
-    const lrcsi_intersections *contacts = &bands->view->prepared->intersections;
     *job = (lrcsi_wall_margins){
         .bands = bands, .classification = classification, .work = work, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
@@ -582,12 +519,8 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     job->unproved = lrcsi_work_take_zero(work, facets, sizeof *job->unproved);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
-    job->first_contact = lrcsi_work_take(work, facets, sizeof *job->first_contact);
-    job->next_contact = lrcsi_work_take(work, contacts->count, sizeof *job->next_contact);
-    job->contact = lrcsi_work_take(work, contacts->count, sizeof *job->contact);
     if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
-        !job->unproved || !job->first_pair || !job->next_pair || !job->first_contact ||
-        !job->next_contact || !job->contact) {
+        !job->unproved || !job->first_pair || !job->next_pair) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {
@@ -595,15 +528,7 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     }
     for (uint32_t f = 0; f < facets; f++) {
         margin[f] = (lrcsi_wall_margin){.area = 0};
-        job->first_pair[f] = job->first_contact[f] = LRCS_NONE;
-    }
-    for (uint32_t f = 0; f < facets; f++) {
-        for (uint32_t i = contacts->first[f]; i < contacts->first[f + 1]; i++) {
-            uint32_t *first = &job->first_contact[contacts->entry[i].other];
-            job->contact[i] = f;
-            job->next_contact[i] = *first;
-            *first = i;
-        }
+        job->first_pair[f] = LRCS_NONE;
     }
     for (uint32_t i = 0; i < proximity->count; i++) {
         uint32_t *first = &job->first_pair[proximity->pair[i].facet];

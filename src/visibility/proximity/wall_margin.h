@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Straight walls, and plane faces of boxes and plates, behind the outlines of true curved shapes
-   and of their facets: in the margins along event edges where nothing else is near, how much more
-   of each facet the true shapes leave visible than the facets do. */
+/* Straight walls behind the outlines of true curved shapes and of their facets: in the margins
+   along event edges where nothing else is near, how much more of each facet the true shapes leave
+   visible than the facets do. */
 #ifndef LRCSI_WALL_MARGIN_H
 #define LRCSI_WALL_MARGIN_H
 
@@ -45,12 +45,9 @@ typedef struct lrcsi_wall_margins {
                                          next one of the same facet; LRCS_NONE: no further one */
     unsigned char *pairs;             /* facet: what is left of them */
     lrcsi_wall_unproved *unproved;    /* facet */
-    uint32_t *first_contact, *next_contact; /* facet: the first of the contacts in which it is the
-                                               other one; contact: the next one, likewise */
-    uint32_t *contact;                      /* contact: the facet that it belongs to */
-    lrcsi_wall_margin *margin;              /* facet: to be filled */
-    lrcsi_wall_event *event;                /* event */
-    lrcsi_margin_facet *facet;              /* those of the edge under examination */
+    lrcsi_wall_margin *margin;        /* facet: to be filled */
+    lrcsi_wall_event *event;          /* event */
+    lrcsi_margin_facet *facet;        /* those of the edge under examination */
     uint32_t facet_count;
     lrcsi_marks reached;   /* facets: those of the edge under examination */
     unsigned char *reader; /* facet: whether queries may be made at it */
