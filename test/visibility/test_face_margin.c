@@ -188,6 +188,34 @@ static void not_beside_the_side_of_the_face(void **state)
     check_most(face[FACE].error, 0.6 * error_without_signs(CASTER));
 }
 
+/* The vertices of a convex part's event edges, in order; returns their number. */
+static uint32_t outline_of(uint32_t part, double (*x)[2], uint32_t most)
+{
+    const lrcsi_edge *all = view.prepared->topology.edge;
+    uint32_t last = 0; /* the event edge that leads to `at` */
+    while (bands.events.part[last] != part) {
+        last++;
+    }
+    const uint32_t start = all[bands.events.edge[last]].low;
+    uint32_t at = all[bands.events.edge[last]].high;
+    uint32_t count = 0;
+    memcpy(x[count++], view.point[at].x, sizeof *x);
+    while (at != start) {
+        uint32_t next = 0;
+        while (
+            next == last || bands.events.part[next] != part ||
+            (all[bands.events.edge[next]].low != at && all[bands.events.edge[next]].high != at)) {
+            next++;
+        }
+        const lrcsi_edge *edge = &all[bands.events.edge[next]];
+        at = edge->low == at ? edge->high : edge->low;
+        last = next;
+        assert_true(count < most);
+        memcpy(x[count++], view.point[at].x, sizeof *x);
+    }
+    return count;
+}
+
 static double polygon_area(double (*x)[2], uint32_t count)
 {
     double twice = 0;
@@ -351,6 +379,27 @@ static void margins_of_parts_that_pierce_the_face(void **state)
     }
 }
 
+/* A rod and a ball pierce one disc, and a ball is above a second disc: what is found on the first does
+   not change what is found on the second. */
+static void margins_behind_a_pierced_face(void **state)
+{
+    (void)state;
+    const lrcs_shape rod = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.05, .length = 0.5};
+    lrcs_recipe_part part[5] = {part_at(disc, 0, 0, 0), part_at(rod, 0.4, 0, -0.1),
+                                part_at(disc, 5, 0, 0), part_at(ball_of(0.3), 5, 0, 0.4),
+                                part_at(ball_of(0.3), -0.4, 0, 0.1)};
+    static double x[2048][2];
+    const double radius = 0.3;
+    find_margins(part, 5, 1e-3, oblique, NULL);
+    const lrcsi_face_margin *second = &face[LRCSI_FACES_OF_PART * 2];
+    const double circle = LRCS_PI * ldexp(radius * radius, -2 * view.prepared->exponent);
+    const double beyond = fabs(polygon_area(x, outline_of(3, x, 2048))) - circle;
+    assert_true(face[FACE].cut == (1u << CASTER | 1u << 4));
+    assert_true(second->known && second->cut == 0);
+    check_abs(second->area, beyond, second->error);
+    check_most(second->error, 0.1 * fabs(face[FACE].error) + 0.02 * fabs(beyond));
+}
+
 /* A ball that pierces the plane beside the face, or at its border, and one that is hardly in front
    of it. */
 static void not_of_parts_that_pierce_the_border(void **state)
@@ -399,34 +448,6 @@ static void not_beside_a_corner_of_the_outline(void **state)
         error[aside] = face[FACE].error;
     }
     check_most(error[1], error[0]);
-}
-
-/* The vertices of a convex part's event edges, in order; returns their number. */
-static uint32_t outline_of(uint32_t part, double (*x)[2], uint32_t most)
-{
-    const lrcsi_edge *all = view.prepared->topology.edge;
-    uint32_t last = 0; /* the event edge that leads to `at` */
-    while (bands.events.part[last] != part) {
-        last++;
-    }
-    const uint32_t start = all[bands.events.edge[last]].low;
-    uint32_t at = all[bands.events.edge[last]].high;
-    uint32_t count = 0;
-    memcpy(x[count++], view.point[at].x, sizeof *x);
-    while (at != start) {
-        uint32_t next = 0;
-        while (
-            next == last || bands.events.part[next] != part ||
-            (all[bands.events.edge[next]].low != at && all[bands.events.edge[next]].high != at)) {
-            next++;
-        }
-        const lrcsi_edge *edge = &all[bands.events.edge[next]];
-        at = edge->low == at ? edge->high : edge->low;
-        last = next;
-        assert_true(count < most);
-        memcpy(x[count++], view.point[at].x, sizeof *x);
-    }
-    return count;
 }
 
 /* The area that two convex polygons have in common: the first, cut along the sides of the second. */
@@ -714,6 +735,7 @@ int main(void)
         cmocka_unit_test(margins_of_short_edges),
         cmocka_unit_test(not_beside_the_side_of_the_face),
         cmocka_unit_test(margins_of_parts_that_pierce_the_face),
+        cmocka_unit_test(margins_behind_a_pierced_face),
         cmocka_unit_test(not_of_parts_that_pierce_the_border),
         cmocka_unit_test(not_beside_an_edge_of_another_part),
         cmocka_unit_test(not_beside_a_corner_of_the_outline),

@@ -489,6 +489,9 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const lrcsi_outline *outline = &bands->orders.outline[part];
+    if (!job->facets_tried) {
+        facets_make(job); /* it stays when the polygon is released */
+    }
     const size_t mark = job->work->used;
     lrcsi_outline cut;
     lrcsi_cut_polygon polygon;

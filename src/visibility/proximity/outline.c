@@ -262,7 +262,7 @@ static double height_above(const lrcsi_outline *o, const double x[3])
 static double section_point(const lrcsi_outline *o, const double n[3], double x[3])
 {
     double behind[3] = {x[0], x[1], x[2]};
-    double front[3];
+    double front[3] = {0, 0, 0};
     double most = HUGE_VAL; /* an upper bound of x . n */
     double low = 0;
     double high = 0; /* 0: no point in front is known yet */
