@@ -135,9 +135,9 @@ static void face_part_limit(face_part *part, double low)
 }
 
 /* Grows a part's extent by what of a facet is within `slack` of the plane of the face. */
-static void face_part_add(const face_job *job, uint32_t facet, const double up[3], double slack,
-                          face_part *part)
+static void face_part_add(const face_job *job, uint32_t facet, double slack, face_part *part)
 {
+    const double *up = job->face.up;
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
@@ -168,9 +168,17 @@ static void face_part_add(const face_job *job, uint32_t facet, const double up[3
     }
 }
 
-/* Is all of a part farther than `slack` from the plane of the face? */
-static int part_is_far(const face_job *job, uint32_t index, const double up[3], double slack)
+/* The slack of a part's facets near the plane of the face, doubled, which contains all errors. */
+static double plane_slack(const face_job *job, uint32_t part)
 {
+    return 2 * lrcsi_proximity_slack(job->bands->view->prepared, job->face.part, part) +
+           64 * LRCSI_PROXIMITY_ERR;
+}
+
+/* Is all of a part farther from the plane than this slack? */
+static int part_is_far(const face_job *job, uint32_t index)
+{
+    const double *up = job->face.up;
     const lrcsi_body *bodies = job->bands->orders.body;
     if (!bodies) {
         return 0;
@@ -178,26 +186,22 @@ static int part_is_far(const face_job *job, uint32_t index, const double up[3], 
     const lrcsi_body *body = &bodies[index];
     const double down[3] = {-up[0], -up[1], -up[2]};
     const double level = lrcsi_vec3_dot(job->face.centre, up);
-    const double wide = slack + body->err;
+    const double wide = plane_slack(job, index) + body->err;
     return level - lrcsi_body_support_all(body, up) > wide ||
            -lrcsi_body_support_all(body, down) - level > wide;
 }
 
-/* Fills job->part. The slack of facets near the plane is doubled, which contains all errors. Where
-   the limit of steps is reached, facets are near everywhere. */
+/* Fills job->part. Where the limit of steps is reached, facets are near everywhere. */
 static void face_parts_make(face_job *job)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const lrcs_scene *scene = p->scene;
-    const double *up = job->face.up;
     const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
     job->order_err = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         const lrcsi_outline *outline = &bands->orders.outline[i];
-        const double slack =
-            2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
         face_part *beside = &job->part[i];
         *beside = (face_part){.in_front = 0};
         face_part_limit(beside, HUGE_VAL);
@@ -210,7 +214,7 @@ static void face_parts_make(face_job *job)
                 lrcsi_face_part_is_separated_in_front(bands, &job->face, i, &beside->unproved);
         }
         job->order_err = lrcsi_max(job->order_err, beside->order_err);
-        if (i == job->face.part || beside->in_front || part_is_far(job, i, up, slack) ||
+        if (i == job->face.part || beside->in_front || part_is_far(job, i) ||
             lrcsi_face_part_is_beside(bands, &job->face, i)) {
             continue;
         }
@@ -218,9 +222,10 @@ static void face_parts_make(face_job *job)
             face_part_limit(beside, -HUGE_VAL);
             continue;
         }
+        const double slack = plane_slack(job, i);
         for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
             if (!p->skip[f]) {
-                face_part_add(job, f, up, slack, beside);
+                face_part_add(job, f, slack, beside);
             }
         }
     }
@@ -488,21 +493,22 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
 {
     lrcsi_event_bands *bands = job->bands;
     const lrcs_prepared *p = bands->view->prepared;
-    const lrcsi_outline *outline = &bands->orders.outline[part];
+    lrcsi_outline cut;
+    lrcsi_cut_polygon polygon;
+    double order_err;
+    if (!lrcsi_outline_cut(&bands->orders.outline[part], bands->view, job->face.facet,
+                           job->face.plane_err, &cut, &order_err)) {
+        return 0;
+    }
     if (!job->facets_tried) {
         facets_make(job); /* it stays when the polygon is released */
     }
     const size_t mark = job->work->used;
-    lrcsi_outline cut;
-    lrcsi_cut_polygon polygon;
-    double order_err;
-    *sum = (face_area){0, 0};
-    int known = outline->known && lrcsi_outline_cut(outline, bands->view, job->face.facet,
-                                                    job->face.plane_err, &cut, &order_err);
     const double wide =
-        known ? 8 * cut.k + 4 * p->proximity.reach[job->face.part] + 64 * LRCSI_PROXIMITY_ERR : 0;
-    known = known && lrcsi_cut_polygon_make(bands, part, &job->face, wide, job->work, &polygon) &&
-            lrcsi_meter_take(bands->meter, polygon.count);
+        8 * cut.k + 4 * p->proximity.reach[job->face.part] + 64 * LRCSI_PROXIMITY_ERR;
+    const int known = lrcsi_cut_polygon_make(bands, part, &job->face, wide, job->work, &polygon) &&
+                      lrcsi_meter_take(bands->meter, polygon.count);
+    *sum = (face_area){0, 0};
     for (uint32_t i = 0; known && i < polygon.count; i++) {
         const double *a = polygon.corner[i];
         const double *b = polygon.corner[(i + 1) % polygon.count];
@@ -532,11 +538,9 @@ static void face_add_cut(face_job *job, lrcsi_face_margin *face)
 {
     const lrcs_prepared *p = job->bands->view->prepared;
     for (uint32_t i = 0; i < p->scene->part_count && i < LRCSI_PART_SET_SINGLE; i++) {
-        const double slack =
-            2 * lrcsi_proximity_slack(p, job->face.part, i) + 64 * LRCSI_PROXIMITY_ERR;
         face_area sum = {face->area, face->error};
         face_area one;
-        if (!part_has_margins(job, i) || part_is_far(job, i, job->face.up, slack)) {
+        if (!part_has_margins(job, i) || part_is_far(job, i)) {
             continue;
         }
         if (!job->parts_known) {
