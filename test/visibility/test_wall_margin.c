@@ -112,6 +112,120 @@ static double polygon_beyond_circle(double radius)
     return polygon_beyond_outline(LRCS_PI * radius * radius);
 }
 
+/* --- what a ball hides of a true wall ---------------------------------------------------------- */
+
+/* A wall around z from z = 0, and a ball in front of it, m; d is a unit vector. */
+typedef struct ball_shadow {
+    double base, slope, height; /* the wall's radius is base + slope z */
+    double centre[3], radius, d[3];
+} ball_shadow;
+
+/* The interval of z in which the ball hides the ruling at this azimuth: where its points are nearer
+   than the radius to the line along d through the centre. Returns 0 if there is none. */
+static int hidden_interval(const ball_shadow *w, double azimuth, double z[2])
+{
+    const double from[3] = {w->base * cos(azimuth) - w->centre[0],
+                            w->base * sin(azimuth) - w->centre[1], -w->centre[2]};
+    const double step[3] = {w->slope * cos(azimuth), w->slope * sin(azimuth), 1};
+    const double from_d = from[0] * w->d[0] + from[1] * w->d[1] + from[2] * w->d[2];
+    const double step_d = step[0] * w->d[0] + step[1] * w->d[1] + step[2] * w->d[2];
+    double a = -step_d * step_d;
+    double b = -from_d * step_d;
+    double c = -from_d * from_d - w->radius * w->radius;
+    for (int k = 0; k < 3; k++) {
+        a += step[k] * step[k];
+        b += from[k] * step[k];
+        c += from[k] * from[k];
+    }
+    const double root = b * b - a * c;
+    if (!(root > 0)) {
+        return 0;
+    }
+    z[0] = (-b - sqrt(root)) / a;
+    z[1] = (-b + sqrt(root)) / a;
+    assert_true(z[0] > 0 && z[1] < w->height);
+    return 1;
+}
+
+/* The integral over v, from an end where the interval may vanish to another one, of the integral of
+   the radius over the interval; by the rule of three points in 64 steps, in the square root of the
+   distance from the end. */
+static double hidden_of_sector(const ball_shadow *w, double middle, double half, double end,
+                               double to)
+{
+    static const double at[3] = {0.11270166537925831, 0.5, 0.88729833462074169};
+    static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    double sum = 0;
+    for (int i = 0; i < 64; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double t = (i + at[k]) / 64;
+            double z[2];
+            if (hidden_interval(w, middle + half * (end + t * t * (to - end)), z)) {
+                sum += weight[k] / 64 * 2 * t * fabs(to - end) *
+                       (w->base * (z[1] - z[0]) + w->slope * (z[1] * z[1] - z[0] * z[0]) / 2);
+            }
+        }
+    }
+    return sum;
+}
+
+/* The area, in projection, of the points of the facets of the wall whose images on the true wall the
+   ball hides, m^2: rho kappa (1, v tan h) is mapped to rho (cos vh, sin vh), at the same height. */
+static double hidden_area(const ball_shadow *w)
+{
+    const lrcs_part *part = &scene.part[WALL];
+    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    const double kappa = body.vertex_ratio * cos(body.half);
+    double area = 0;
+    for (uint32_t i = 0; i < body.around; i++) {
+        const double middle = (2.0 * i + 1.0) * body.half;
+        const double facing =
+            cos(middle) * w->d[0] + sin(middle) * w->d[1] - w->slope * kappa * w->d[2];
+        double z[2];
+        double low = -1;
+        double high = 1;
+        const int in[2] = {hidden_interval(w, middle - body.half, z),
+                           hidden_interval(w, middle + body.half, z)};
+        if (!(facing > 0) || (!in[0] && !in[1] && !hidden_interval(w, middle, z))) {
+            continue;
+        }
+        assert_true(in[0] || in[1]);
+        for (int k = 0; k < 60 && in[0] != in[1]; k++) {
+            const double v = 0.5 * (low + high);
+            const int inside = hidden_interval(w, middle + v * body.half, z);
+            low = inside == in[0] ? v : low;
+            high = inside == in[0] ? high : v;
+        }
+        const double of_v = !in[0]   ? hidden_of_sector(w, middle, body.half, low, 1)
+                            : !in[1] ? hidden_of_sector(w, middle, body.half, high, -1)
+                                     : hidden_of_sector(w, middle, body.half, -1, 0) +
+                                           hidden_of_sector(w, middle, body.half, 0, 1);
+        area += of_v * kappa * tan(body.half) * facing;
+    }
+    return area;
+}
+
+/* What the true ball and wall leave visible more than their facets, scaled: the facets hide what is
+   inside the polygon. */
+static double more_visible(const lrcs_shape *wall, const double centre[3], double radius,
+                           const double d[3])
+{
+    const int is_frustum = wall->kind == LRCS_SHAPE_FRUSTUM; /* radius2 is that at z = 0 */
+    const double base = is_frustum ? wall->radius2 : wall->radius;
+    const double top = wall->kind == LRCS_SHAPE_CONE ? 0 : wall->radius;
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    ball_shadow w = {.base = base,
+                     .slope = (top - base) / wall->length,
+                     .height = wall->length,
+                     .radius = radius};
+    for (int k = 0; k < 3; k++) {
+        w.centre[k] = centre[k];
+        w.d[k] = d[k] / length;
+    }
+    return polygon_beyond_circle(radius) +
+           ldexp(LRCS_PI * radius * radius - hidden_area(&w), -2 * view.prepared->exponent);
+}
+
 static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
 {
     (void)state;
@@ -125,10 +239,10 @@ static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
         find_margins(part, 2, tolerance, d);
         const wall_sums sum = sum_of_wall();
         assert_true(sum.facets > 4);
-        const double want = polygon_beyond_circle(0.3);
+        const double want = more_visible(walls[i % 3], part[BALL].place.translate, 0.3, d);
         const double other = sum.gain + sum.loss; /* edges of which no margin is known */
         check_abs(sum.area, want, sum.loose + other);
-        check_abs(sum.area, want, 0.02 * fabs(want) + other); /* displacements cancel */
+        check_abs(sum.area, want, 1.5e-3 * fabs(want) + other);
         check_most(fabs(sum.area), sum.size);
         check_most(sum.loose, 0.75 * (sum.all_gain + sum.all_loss));
         check_most(other, 0.1 * (sum.all_gain + sum.all_loss));

@@ -171,9 +171,6 @@ static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
     const lrcsi_proximity_band *band = run->band ? run->band->whole : NULL;
     lrcsi_part_set set = band ? band->parts[facet] : 0;
     int own = 1;
-    if (band && run->areas->margins && lrcsi_wall_margin_of(run->areas->margins, facet)) {
-        set = band->margin[facet].causes;
-    }
     const lrcsi_flat_face *face = lrcsi_flat_face_of(run->areas->face, run->view, facet);
     if (band && face) {
         set |= face->facet == facet ? face->causes : 0;

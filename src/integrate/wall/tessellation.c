@@ -75,7 +75,7 @@
    (visibility/proximity/wall_margin.c): the area by which the true shapes leave more visible in
    them is attributed to the facets there, A to this one, and A F_i is added to M. Then g and
    l are the fractions of the other bands, and T - M has one more term: the integral of F over the
-   margins, less A F_i for each facet, where F is that of a patch next to the facet's. Let D be a
+   margins, less A F_i for each facet, where F is that of a patch some sectors away. Let D be a
    bound on the area in the margins, and E one on the error of A, both divided by the facet's
    projected area. The term is at most (1 + a) S (D sup |F - F_i| + E sup F), sup over these
    patches, and S D F_i a for the stretch; with l in place of F_i, also S D sup |l - F_i|. Together
@@ -170,16 +170,17 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
                                 either + value * band->loss_aligned[facet], 0, 0, 0};
 }
 
-/* The error of the margins on a facet, per unit of its area. F in them may be that of a patch next
-   to the facet's (visibility/proximity/wall_margin.c): its normals turn from the facet's by at most
-   3 `turn`. Where the sum does not include them, all that they add is an error. */
+/* The error of the margins on a facet, per unit of its area. F in them may be that of a patch some
+   sectors away (visibility/proximity/wall_margin.h): the normals of facets of successive sectors
+   differ by at most 2 `turn`, and those of a patch from its facet's by `turn`. Where the sum does
+   not include them, all that they add is an error. */
 static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
                            const lrcsi_incidence *incidence, const lrcs_brdf *brdf,
                            const lrcsi_wall_margin *margin)
 {
     lrcs_patch_bounds around = at->bounds;
-    around.turn *= 3;
-    around.rms_turn *= 3;
+    around.turn *= 2.0 * margin->sectors + 1.0;
+    around.rms_turn *= 2.0 * margin->sectors + 1.0;
     const lrcsi_deviation f =
         lrcsi_deviation_make(brdf, fabs(incidence->cos_theta), incidence->tan2, &around);
     const double most = fmax(f.value_max, at->deviation.of_f.value);

@@ -50,8 +50,9 @@ static int margin_place(lrcsi_edge_margin *m, double position_err)
     return 1;
 }
 
-int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
-                           double order_err, lrcsi_edge_margin *m)
+int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, const lrcsi_outline *outline,
+                           uint32_t event, uint32_t receiver, double order_err,
+                           lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = bands->view;
     const uint32_t part = bands->events.part[event];
@@ -60,7 +61,8 @@ int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint3
                              .part = part,
                              .edge = edge,
                              .side = bands->events.side[event],
-                             .outline = &bands->orders.outline[part],
+                             .end = {edge->low, edge->high},
+                             .outline = outline,
                              .order_err = order_err};
     if (part == receiver || m->side == 0 || !m->outline->known ||
         lrcsi_event_rim_is_inside(bands, event)) {

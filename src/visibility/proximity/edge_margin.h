@@ -13,6 +13,7 @@ typedef struct lrcsi_edge_margin {
     uint32_t event, part;   /* event: LRCS_NONE for a side of a polygon (cut_polygon.h) */
     const lrcsi_edge *edge; /* likewise NULL */
     int side;               /* of the part's facets, as of events */
+    uint32_t end[2];        /* the vertices at a and b; of a side, what the caller sets: corners */
     const lrcsi_outline *outline;
     double a[3], b[3];
     double length, along[2], outward[2]; /* outward: away from the part's facets */
@@ -29,10 +30,12 @@ typedef struct lrcsi_margin_receiver {
     double order_err;             /* on a face: the largest of any part */
 } lrcsi_margin_receiver;
 
-/* Makes the data of an event edge, given its order_err. Returns 0 if it is not a contour edge of a
-   part other than P that has an outline. */
-int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, uint32_t event, uint32_t receiver,
-                           double order_err, lrcsi_edge_margin *margin);
+/* Makes the data of an event edge, given its part's outline, of which k may be larger than that of
+   the part; its order_err. Returns 0 if it is not a contour edge of a part other than P that has an
+   outline. */
+int lrcsi_edge_margin_make(const lrcsi_event_bands *bands, const lrcsi_outline *outline,
+                           uint32_t event, uint32_t receiver, double order_err,
+                           lrcsi_edge_margin *margin);
 
 /* The same for a side of a polygon, counter-clockwise. Returns 0 if it is too short. */
 int lrcsi_edge_margin_make_side(const lrcsi_outline *outline, uint32_t part, const double a[3],

@@ -53,22 +53,28 @@ unsigned lrcsi_face_border_sides(const lrcsi_view *view, uint32_t facet)
     return sides;
 }
 
-/* Is every open curved part in front of the face's part, or of the plane of one of its facets, or
-   behind the part, for all of the facet, or beside the face? */
-static int open_parts_are_ordered(lrcsi_event_bands *bands, const lrcsi_face_frame *face,
-                                  uint32_t facet)
+/* Is every open curved part in front of the face's part, or of the planes of its facets, or behind
+   the part, for all of each facet, or beside the face? */
+static int open_parts_are_ordered(lrcsi_event_bands *bands, const lrcsi_face_frame *face)
 {
     const lrcs_prepared *p = bands->view->prepared;
+    const lrcs_part *own = &p->scene->part[face->part];
     int ordered = lrcsi_meter_take(bands->meter, p->scene->part_count);
     for (uint32_t i = 0; i < p->scene->part_count && ordered; i++) {
-        double err;
-        double unproved = 0;
-        ordered = i == face->part || !(p->proximity.hausdorff[i] > 0) ||
-                  lrcsi_proximity_openings(p, i) == 0 ||
-                  ((lrcsi_part_is_in_front(&bands->orders, facet, i, &err, &unproved) ||
-                    lrcsi_part_is_behind(&bands->orders, facet, i, &unproved)) &&
-                   unproved == 0) ||
-                  lrcsi_face_part_is_beside(bands, face, i);
+        if (i == face->part || !(p->proximity.hausdorff[i] > 0) ||
+            lrcsi_proximity_openings(p, i) == 0 || lrcsi_face_part_is_beside(bands, face, i)) {
+            continue;
+        }
+        ordered = lrcsi_meter_take(bands->meter, own->facet_count);
+        for (uint32_t f = own->first_facet; f < own->first_facet + own->facet_count && ordered;
+             f++) {
+            double err;
+            double unproved = 0;
+            ordered = lrcsi_face_of(bands->view, f) != face->number ||
+                      ((lrcsi_part_is_in_front(&bands->orders, f, i, &err, &unproved) ||
+                        lrcsi_part_is_behind(&bands->orders, f, i, &unproved)) &&
+                       unproved == 0);
+        }
     }
     return ordered;
 }
@@ -169,12 +175,7 @@ int lrcsi_face_frame_make(lrcsi_event_bands *bands, uint32_t number, lrcsi_face_
     for (int k = 0; k < 3; k++) {
         face->up[k] = face->det < 0 ? -face->up[k] : face->up[k];
     }
-    int ordered = fabs(face->det) > FACE_COS_MIN;
-    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count && ordered;
-         f++) {
-        ordered = lrcsi_face_of(view, f) != number || open_parts_are_ordered(bands, face, f);
-    }
-    return ordered;
+    return fabs(face->det) > FACE_COS_MIN && open_parts_are_ordered(bands, face);
 }
 
 double lrcsi_face_extent(const lrcsi_face_frame *face, int k)

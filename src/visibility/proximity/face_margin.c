@@ -111,6 +111,12 @@ static double distance_along(int k, double distance)
     return distance * (fabs(face_direction[k][0]) + fabs(face_direction[k][1]));
 }
 
+/* What the laser sees of a face beyond an end of an edge. */
+typedef struct end_answer {
+    uint32_t face, part; /* the face, and the part with the edge; LRCS_NONE: not known */
+    int answer;          /* visibility/uniform/query.h */
+} end_answer;
+
 typedef struct face_job {
     lrcsi_event_bands *bands;
     lrcsi_classification *classification;
@@ -118,8 +124,10 @@ typedef struct face_job {
     lrcsi_grid facets; /* for queries about the faces' facets; made when first needed */
     int facets_tried, facets_made;
     lrcsi_face_frame face;
-    face_part *part;  /* of each part */
-    double order_err; /* the largest of any part */
+    face_part *part;            /* of each part */
+    uint32_t *near, near_count; /* the parts with facets near the plane, for (e) */
+    end_answer *beyond;         /* of each vertex, or of the first corners of a polygon */
+    double order_err;           /* the largest of any part */
     int parts_known;
 } face_job;
 
@@ -199,27 +207,31 @@ static void face_parts_make(face_job *job)
     const lrcs_scene *scene = p->scene;
     const int counted = lrcsi_meter_take(bands->meter, scene->part_count);
     job->order_err = 0;
+    job->near_count = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         const lrcsi_outline *outline = &bands->orders.outline[i];
         face_part *beside = &job->part[i];
         *beside = (face_part){.in_front = 0};
         face_part_limit(beside, HUGE_VAL);
+        if (i == job->face.part || lrcsi_face_part_is_beside(bands, &job->face, i)) {
+            continue;
+        }
         beside->in_front = counted && outline->known &&
                            lrcsi_outline_in_front(outline, bands->view, job->face.facet,
                                                   job->face.plane_err, &beside->order_err);
         beside->order_err = beside->in_front ? beside->order_err : 0;
-        if (counted && outline->known && !beside->in_front && i != job->face.part) {
+        if (counted && outline->known && !beside->in_front) {
             beside->in_front =
                 lrcsi_face_part_is_separated_in_front(bands, &job->face, i, &beside->unproved);
         }
         job->order_err = lrcsi_max(job->order_err, beside->order_err);
-        if (i == job->face.part || beside->in_front || part_is_far(job, i) ||
-            lrcsi_face_part_is_beside(bands, &job->face, i)) {
+        if (beside->in_front || part_is_far(job, i)) {
             continue;
         }
         if (!lrcsi_meter_take(bands->meter, part->facet_count)) {
             face_part_limit(beside, -HUGE_VAL);
+            job->near[job->near_count++] = i;
             continue;
         }
         const double slack = plane_slack(job, i);
@@ -227,6 +239,9 @@ static void face_parts_make(face_job *job)
             if (!p->skip[f]) {
                 face_part_add(job, f, slack, beside);
             }
+        }
+        if (beside->low[0] <= beside->high[0]) {
+            job->near[job->near_count++] = i;
         }
     }
     job->parts_known = 1;
@@ -250,8 +265,8 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
         face_parts_make(job);
     }
     const face_part *beside = &job->part[part];
-    return beside->in_front &&
-           lrcsi_edge_margin_make(bands, event, job->face.part, beside->order_err, m);
+    return beside->in_front && lrcsi_edge_margin_make(bands, &bands->orders.outline[part], event,
+                                                      job->face.part, beside->order_err, m);
 }
 
 /* --- what else is near ------------------------------------------------------------------------ */
@@ -259,15 +274,14 @@ static int face_edge_make(face_job *job, uint32_t event, lrcsi_edge_margin *m)
 /* Adds the parts of an edge near which (e) does not hold. */
 static void parts_add_gaps(face_job *job, const lrcsi_edge_margin *m, lrcsi_edge_gaps *gaps)
 {
-    const uint32_t parts = job->bands->view->prepared->scene->part_count;
     const double wide = m->width + m->err;
-    if (!lrcsi_meter_take(job->bands->meter, parts)) {
+    if (!lrcsi_meter_take(job->bands->meter, job->near_count)) {
         lrcsi_edge_gaps_add(gaps, (lrcsi_segment_part){0, 1});
     }
-    for (uint32_t i = 0; i < parts && !lrcsi_edge_gaps_are_all(gaps); i++) {
-        const face_part *part = &job->part[i];
+    for (uint32_t i = 0; i < job->near_count && !lrcsi_edge_gaps_are_all(gaps); i++) {
+        const face_part *part = &job->part[job->near[i]];
         lrcsi_segment_part near = {0, 1};
-        if (i == m->part) {
+        if (job->near[i] == m->part) {
             continue;
         }
         for (int k = 0; k < DIRECTIONS && !lrcsi_segment_part_is_empty(near); k++) {
@@ -353,6 +367,38 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
     return answer;
 }
 
+/* Where to note the answer beyond an end of a free part; NULL if it does not end with its edge. */
+static end_answer *answer_beyond(const face_job *job, const lrcsi_edge_part *free, int end)
+{
+    const uint32_t at = free->margin.end[end];
+    const int ends = end == 0 ? free->of.from <= 0 : free->of.to >= 1;
+    return ends && at < job->bands->view->prepared->scene->vertex_count ? &job->beyond[at] : NULL;
+}
+
+/* (f) for a free part of an edge. If it ends in a point q where the free part of another edge does,
+   one answer holds for both: the point half of w beyond the other edge at q is in N of both, and on
+   the outer side of both and of all edges that follow, since these turn by less than 0.5 rad. */
+static int part_visibility(face_job *job, const lrcsi_edge_part *free)
+{
+    const uint32_t part = free->margin.part;
+    end_answer *at[2] = {answer_beyond(job, free, 0), answer_beyond(job, free, 1)};
+    int answer = LRCSI_QUERY_NO_ANSWER;
+    for (int k = 0; k < 2; k++) {
+        if (at[k] && at[k]->face == job->face.number && at[k]->part == part) {
+            answer = at[k]->answer;
+        }
+    }
+    if (answer == LRCSI_QUERY_NO_ANSWER) {
+        answer = margin_visibility(job, &free->margin);
+    }
+    for (int k = 0; k < 2; k++) {
+        if (at[k]) {
+            *at[k] = (end_answer){job->face.number, part, answer};
+        }
+    }
+    return answer;
+}
+
 /* --- all faces -------------------------------------------------------------------------------- */
 
 /* What the true shapes leave visible of the face along an edge or a part of it, less what their
@@ -387,7 +433,7 @@ static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
 static int signed_area(face_job *job, const lrcsi_edge_part *free, face_area *found)
 {
     const lrcsi_edge_margin *m = &free->margin;
-    const int visibility = margin_visibility(job, m);
+    const int visibility = part_visibility(job, free);
     *found = (face_area){0, 0};
     if (visibility == LRCSI_QUERY_VISIBLE) {
         const lrcsi_outline_margin margin =
@@ -510,10 +556,12 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
                       lrcsi_meter_take(bands->meter, polygon.count);
     *sum = (face_area){0, 0};
     for (uint32_t i = 0; known && i < polygon.count; i++) {
-        const double *a = polygon.corner[i];
-        const double *b = polygon.corner[(i + 1) % polygon.count];
+        const uint32_t next = (i + 1) % polygon.count;
         lrcsi_edge_margin m;
-        if (lrcsi_edge_margin_make_side(&cut, part, a, b, order_err, &m)) {
+        if (lrcsi_edge_margin_make_side(&cut, part, polygon.corner[i], polygon.corner[next],
+                                        order_err, &m)) {
+            m.end[0] = i;
+            m.end[1] = next;
             lrcsi_edge_gaps gaps = {.count = 0};
             double turn[2];
             lrcsi_cut_polygon_find_gaps(&polygon, i, &m, &gaps, turn);
@@ -578,6 +626,8 @@ size_t lrcsi_face_margins_need(const lrcs_prepared *p)
 {
     size_t need = lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
                                  lrcsi_work_bytes(p->scene->part_count, sizeof(face_part)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->vertex_count, sizeof(end_answer)));
     need = lrcsi_work_add(need, lrcsi_cut_polygon_need(p));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
 }
@@ -590,6 +640,11 @@ void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *cla
     const size_t mark = work->used;
     face_job job = {.bands = bands, .classification = classification, .work = work};
     job.part = lrcsi_work_take(work, scene->part_count, sizeof *job.part);
+    job.near = lrcsi_work_take(work, scene->part_count, sizeof *job.near);
+    job.beyond = lrcsi_work_take(work, scene->vertex_count, sizeof *job.beyond);
+    for (uint32_t i = 0; i < scene->vertex_count && job.beyond; i++) {
+        job.beyond[i].face = LRCS_NONE;
+    }
     for (uint32_t i = 0; i < bands->events.count; i++) {
         faces[i] = none;
     }
@@ -597,7 +652,7 @@ void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *cla
         const int is_box = scene->part[i / LRCSI_FACES_OF_PART].kind == LRCS_SHAPE_BOX;
         face[i] = (lrcsi_face_margin){.known = 0};
         job.parts_known = 0;
-        if (job.part && (is_box || i % LRCSI_FACES_OF_PART == 0) &&
+        if (job.part && job.near && job.beyond && (is_box || i % LRCSI_FACES_OF_PART == 0) &&
             lrcsi_face_frame_make(bands, i, &job.face) && face_has_margins(&job)) {
             face_add(&job, &face[i], faces);
             face_add_cut(&job, &face[i]);

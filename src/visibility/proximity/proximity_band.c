@@ -197,7 +197,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             lrcsi_part_set_without(band->parts[facet], own) != 0) {
             /* the other edges are not considered; but those of its own part alone tell that no
                other part's matter (integrate/wall/open_sectors.h) */
-            band->parts[facet] = margin->causes = LRCSI_PART_SET_ALL;
+            band->parts[facet] = LRCSI_PART_SET_ALL;
             return;
         }
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
@@ -213,7 +213,6 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             if (!lrcsi_wall_margins_add(&job->walls, facet, job->listed[i])) {
                 margin->gain += fractions.gain;
                 margin->loss += fractions.loss;
-                margin->causes |= lrcsi_part_set_of(part);
             }
         }
     }
@@ -333,7 +332,6 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
     }
     uint32_t count; /* 2 */
     const int found = find_events(job, &where, &count);
-    job->band->margin[facet].causes = job->band->parts[facet];
     job->unproved_aligned = 0;
     const int aligned = on_face || begin_aligned(job, facet);
     if (!found) {

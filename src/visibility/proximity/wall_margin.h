@@ -15,15 +15,14 @@ typedef struct lrcsi_wall_margin {
     double area_max; /* bound on the area in the margins: F may vary over it */
     double area_err; /* bound on the error of `area`, which is attributed to the facet: a part of it
                         may be on facets next to it */
-    double gain, loss;     /* the fractions of lrcsi_proximity_band beside these margins */
-    lrcsi_part_set causes; /* the parts of these fractions, not the casters of the margins: to
-                              divide these more finely reduces the error less */
+    uint32_t sectors;  /* so many sectors away from the facet's own they may be, at most */
+    double gain, loss; /* the fractions of lrcsi_proximity_band beside these margins */
 } lrcsi_wall_margin;
 
 /* What is known of an event edge over a wall. */
 typedef struct lrcsi_wall_event {
-    uint32_t part; /* whose wall was examined last; LRCS_NONE: none was */
-    int known;     /* 1: its margins there are */
+    uint32_t part;            /* whose wall was examined last; LRCS_NONE: none was */
+    lrcsi_segment_part known; /* the part of the edge of which the margins there are */
 } lrcsi_wall_event;
 
 /* Of a facet: the fraction for which its order with some of these parts is not proved
@@ -32,6 +31,13 @@ typedef struct lrcsi_wall_unproved {
     double fraction;
     lrcsi_part_set parts;
 } lrcsi_wall_unproved;
+
+/* A plane, in view coordinates, below which points are behind all of a part. */
+typedef struct lrcsi_wall_plane {
+    int known;
+    double up[3], level; /* unit vector; its product with the plane's points */
+    double err;          /* bound on the error of `level` and of products with view coordinates */
+} lrcsi_wall_plane;
 
 /* A facet that the margin of an edge meets. */
 typedef struct lrcsi_margin_facet lrcsi_margin_facet;
@@ -48,6 +54,8 @@ typedef struct lrcsi_wall_margins {
     lrcsi_wall_margin *margin;        /* facet: to be filled */
     lrcsi_wall_event *event;          /* event */
     lrcsi_margin_facet *facet;        /* those of the edge under examination */
+    lrcsi_outline outline;            /* of the edge under examination; its k is at least delta */
+    lrcsi_wall_plane plane;           /* below the part of this edge */
     uint32_t facet_count;
     lrcsi_marks reached;   /* facets: those of the edge under examination */
     unsigned char *reader; /* facet: whether queries may be made at it */
@@ -65,8 +73,9 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
                             lrcsi_wall_margins *margins);
 
 /* Adds the margins of an event edge to the facets of the wall on which a facet near it lies, unless
-   that was done before. Returns 1 if they are known. Facets must be given part by part: of each
-   event only the last part is remembered, and its margins would be added twice. */
+   that was done before. Returns 1 if they are known wherever the edge is near this facet. Facets
+   must be given part by part: of each event only the last part is remembered, and its margins would
+   be added twice. */
 int lrcsi_wall_margins_add(lrcsi_wall_margins *margins, uint32_t facet, uint32_t event);
 
 /* Ends the search: adds what proofs of order leave open of the facets with margins to their error.
