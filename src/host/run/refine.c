@@ -32,9 +32,11 @@
 #define ONE_RUN_FACTOR 1e4
 /* If the error of a level that is divided already exceeds what is allowed by more than LARGE_STEP,
    all parts with at least ALIKE_FRACTION of it are halved together, because an error where two
-   parts meet is attributed to either of them only roughly. */
+   parts meet is attributed to either of them only roughly; but no part for which that takes more
+   than ALIKE_FACETS of all facets. */
 #define LARGE_STEP     16.0
 #define ALIKE_FRACTION 0x1p-6
+#define ALIKE_FACETS   0x1p-3
 /* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
 #define TOLERANCE_MIN 1e-12
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
@@ -222,12 +224,13 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
     choice->error *= choice->factor;
 }
 
-/* Halves parts, each time the best one and all with at least the fraction `least` of the error,
-   until their total error is allowed, or no part can be halved any further. If the parts that
-   cannot be halved have more error than is allowed, the error of the others is reduced to
-   FIXED_FRACTION of that. Returns the number of facets. */
+/* Halves parts, each time the best one and all with at least the fraction `least` of the error for
+   which that takes at most the fraction `most` of all facets, until their total error is allowed,
+   or no part can be halved any further. If the parts that cannot be halved have more error than is
+   allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number of
+   facets. */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
-                            double allowed, double least, part_choice *choice,
+                            double allowed, double least, double most, part_choice *choice,
                             unsigned char *halvings)
 {
     for (;;) {
@@ -244,7 +247,8 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
             return facets;
         }
         for (uint32_t i = 0; i < levels->parts; i++) {
-            if (i == best || choice[i].error >= least * error) {
+            const double price = (choice[i].growth - 1.0) * choice[i].facets;
+            if (i == best || (choice[i].error >= least * error && price <= most * facets)) {
                 choice_halve(levels, tolerance, &choice[i], &halvings[i]);
             }
         }
@@ -281,9 +285,10 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
                 least = ALIKE_FRACTION;
             }
         }
-        double facets = choices_halve(levels, options->tolerance, allowed, least, choice, halvings);
+        double facets = choices_halve(levels, options->tolerance, allowed, least, ALIKE_FACETS,
+                                      choice, halvings);
         choices_start(scene, result, part_error_m2, from, choice);
-        if (choices_halve(levels, options->tolerance, allowed, 0.0, choice, alike) <
+        if (choices_halve(levels, options->tolerance, allowed, 0.0, HUGE_VAL, choice, alike) <
             SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
         }
