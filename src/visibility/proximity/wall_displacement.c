@@ -12,9 +12,9 @@
 
    Over a segment of a facet's plane, rho and rho v are linear functions of the position. Let rho be
    rho0 and rho1 at its ends, v be v0 and v1. A linear function in place of v differs from v by at
-   most |v1 - v0| |rho1 - rho0| / (4 min(rho0, rho1)): v is the mean of v0 and v1 with weights t rho1
-   and (1 - t) rho0 in place of t and 1 - t. Then the integrand is a polynomial of degree 5, for
-   which the rule of three points is exact.
+   most |v1 - v0| |rho1 - rho0| / (4 min(rho0, rho1)): v is the mean of v0 and v1 with the weights
+   t rho1 and (1 - t) rho0 in place of t and 1 - t. Then the integrand is a polynomial of degree 5,
+   for which the rule of three points is exact.
 
    Derivatives. |c'| <= h^2. kappa tan h = mu sin h, where the vertex ratio mu is between 1 and
    1 / cos h; so s' = h cos vh - mu sin h is between h cos h - tan h and h - sin h, both at most h^3

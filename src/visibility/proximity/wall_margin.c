@@ -277,9 +277,8 @@ static double margin_facet_slack(const lrcsi_edge_margin *m, double lateral)
     return m->outline->k + LRCSI_ROOT_2_OUTWARD * lateral + m->err;
 }
 
-/* Makes the plane below which (b) is tested: that of the largest height along the laser's direction,
-   of those that contain the direction of the edge and the one perpendicular to it in projection, so
-   that all of Q is on or above it. */
+/* Makes the plane for (b): parallel to the edge and, across it, to the view plane; as high, along
+   the direction to the laser, as it can be with all of Q on or above it. */
 static lrcsi_wall_plane plane_below(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
@@ -361,8 +360,8 @@ static void margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *
     margin_facet_cut(job, m, one);
 }
 
-/* Continues the search across the sides of a facet that N meets: to the facets beyond them that face
-   the laser. Adds a gap where there is none. */
+/* Continues the search across the sides of a facet that N meets, to the facets beyond them that
+   face the laser. Adds a gap where there is none. */
 static void margin_facets_spread(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                                  uint32_t facet, lrcsi_edge_gaps *gaps)
 {
