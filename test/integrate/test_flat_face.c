@@ -238,7 +238,7 @@ static void few_steps_and_little_memory_widen_the_bound(void **state)
     check_abs(all.sigma_m2, truth, all.bound_m2);
     check_most(all.bound_m2, 1e-3 * truth);
     int wider = 0;
-    for (uint64_t steps = 16; steps < all.steps; steps += steps / 8) {
+    for (uint64_t steps = 16; steps < all.steps; steps += steps / 3) {
         run.steps = steps;
         assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &r, NULL, NULL), LRCS_OK);
         check_abs(r.sigma_m2, truth, r.bound_m2);

@@ -232,9 +232,9 @@ static void derivatives_under_shadow_are_differences_of_runs(void **state)
     static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER, LRCS_METHOD_FACET};
     static const double directions[][3] = {{0.2, 0.1, 1}, {-0.7, 0.3, 0.6}, {0.5, -0.2, -1}};
     const lrcs_uncertainty_options how = {0, 1};
-    for (size_t j = 0; j < ROWS(method) * ROWS(directions); j++) {
-        const double *direction = directions[j / ROWS(method)];
-        int by = method[j % ROWS(method)];
+    for (size_t j = 0; j < ROWS(method); j++) {
+        const double *direction = directions[j];
+        int by = method[j];
         lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
         lrcs_run_options options = lrcs_run_options_default();
         lrcs_pose pose;
@@ -335,9 +335,9 @@ static void derivatives_over_walls_are_differences_of_runs(void **state)
     lrcs_scene walls;
     lrcs_work base = lrcs_work_make(scene_area, sizeof scene_area);
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &base, &walls, NULL), LRCS_OK);
-    for (size_t j = 0; j < ROWS(method) * ROWS(directions); j++) {
-        const double *direction = directions[j / ROWS(method)];
-        int by = method[j % ROWS(method)];
+    for (size_t j = 0; j < ROWS(method); j++) {
+        const double *direction = directions[j];
+        int by = method[j];
         outcome got[5];
         for (int i = 0; i < 8; i++) {
             double slope = 0;
