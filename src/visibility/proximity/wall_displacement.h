@@ -15,8 +15,8 @@ typedef struct lrcsi_wall_displacement {
                            distance in projection */
 } lrcsi_wall_displacement;
 
-/* Given: a facet on the straight wall of a part that is placed without distortion, its incidence;
-   the segment from a to b, in the facet's projection or close to it; a bound on the error of
+/* Given: a facet on the straight wall of a part that is placed without distortion; the
+   segment from a to b, in the facet's projection or close to it; a bound on the error of
    positions; the unit vector. Returns 0 if no bound is known. */
 int lrcsi_wall_displacement_make(const lrcsi_event_bands *bands, uint32_t facet, const double a[2],
                                  const double b[2], double position_err, const double along[2],

@@ -305,30 +305,29 @@ static lrcsi_wall_plane plane_below(const lrcsi_wall_margins *job, const lrcsi_e
     return plane;
 }
 
-/* Is what of a facet N meets, and of the true wall there, below this plane? */
-static int facet_is_below(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet)
+/* Is a slice of a facet, and the true wall there, below this plane? */
+static int slice_is_below(const lrcsi_wall_margins *job, uint32_t facet, const lrcsi_slice *slice)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, facet, m->edge, m->width);
-    const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
     const double slack = job->plane.err + p->proximity.reach[p->scene->facet_part[facet]] +
                          4 * lrcsi_edge_rectangle_facet_err(view, facet);
     int below = job->plane.known;
-    for (int i = 0; i < slice.count; i++) {
-        below = below && lrcsi_vec3_dot(job->plane.up, slice.x[i]) < job->plane.level - slack;
+    for (int i = 0; i < slice->count; i++) {
+        below = below && lrcsi_vec3_dot(job->plane.up, slice->x[i]) < job->plane.level - slack;
     }
     return below;
 }
 
-/* What of the edge is so near to a facet that visibility there may differ between true shapes and
-   facets. */
+/* What of the edge is so near to a facet, of which delta is given, that visibility there may differ
+   between true shapes and facets. */
 static lrcsi_segment_part margin_facet_near(const lrcsi_wall_margins *job,
-                                            const lrcsi_edge_margin *m, uint32_t facet)
+                                            const lrcsi_edge_margin *m, uint32_t facet,
+                                            double lateral)
 {
     const lrcsi_view *view = job->bands->view;
-    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
-        view, facet, m->edge, margin_facet_slack(m, facet_lateral(job, facet)));
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(view, facet, m->edge, margin_facet_slack(m, lateral));
     const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
     return part_near(m, &box, &slice, 0);
 }
@@ -343,17 +342,19 @@ static void margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *
     const int applies = facet_applies(job, facet);
     const int separated =
         applies && lrcsi_part_is_separated_in_front(&job->bands->orders, facet, m->part, &unproved);
-    if (!separated && !(applies && facet_is_below(job, m, facet))) {
+    if (!separated) {
         const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, facet, m->edge, m->width);
         const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
-        lrcsi_edge_gaps_add(gaps, part_near(m, &box, &slice, m->width));
-        return;
+        if (!applies || !slice_is_below(job, facet, &slice)) {
+            lrcsi_edge_gaps_add(gaps, part_near(m, &box, &slice, m->width));
+            return;
+        }
     }
     pairs_add_gaps(job, m, facet, gaps);
     unproved_add(job, facet, m->part, separated ? unproved : 0);
-    const lrcsi_segment_part near = margin_facet_near(job, m, facet);
     one->usable = 1;
     one->lateral = one->farthest = facet_lateral(job, facet);
+    const lrcsi_segment_part near = margin_facet_near(job, m, facet, one->lateral);
     one->near[0] = near.from * m->length;
     one->near[1] = near.to * m->length;
     facet_position(view->prepared, facet, &one->patch);
@@ -437,7 +438,6 @@ static void margin_facets_compare(const lrcsi_wall_margins *job, const lrcsi_edg
         const double own = lrcsi_view_incidence(view, one->facet).cos_theta;
         const double from = one->outer.from * m->length - m->err;
         const double to = one->outer.to * m->length + m->err;
-        int local = 1;
         for (uint32_t k = 0; k < job->facet_count; k++) {
             const lrcsi_margin_facet *other = &job->facet[k];
             const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
@@ -452,11 +452,9 @@ static void margin_facets_compare(const lrcsi_wall_margins *job, const lrcsi_edg
             one->farthest = lrcsi_max(one->farthest, other->lateral);
             one->cos_ratio_err = lrcsi_max(one->cos_ratio_err, cos_ratio_err);
             one->neighbour_err += cos_ratio_err * length;
-            local = local && one->patch.mirrored == other->patch.mirrored;
         }
         one->neighbour_err = lrcsi_min(one->neighbour_err, one->cos_ratio_err * (to - from));
-        if (!local || one->sectors > MARGIN_SECTORS_MAX ||
-            !(one->cos_ratio_err < COS_RATIO_ERR_MAX)) {
+        if (one->sectors > MARGIN_SECTORS_MAX || !(one->cos_ratio_err < COS_RATIO_ERR_MAX)) {
             lrcsi_edge_gaps_add(gaps, one->outer);
         }
     }
@@ -550,11 +548,9 @@ static lrcsi_wall_displacement margin_displacement(const lrcsi_wall_margins *job
     const double to_end = lrcsi_max(0, lrcsi_min(one->outer.from, 1 - one->outer.to)) * m->length +
                           2 * m->outline->k - lateral;
     const double variation = lateral * deepest * lrcsi_min(8, 2 * part / to_end);
-    const double error = along.error + lateral * (one->length_err + m->direction_err) * m->length +
-                         (part * q * (deepest + lateral) + variation) / (1 - q);
-    return q <= DISPLACEMENT_SLOPE_MAX && error < found.error
-               ? (lrcsi_wall_displacement){along.area, error, q}
-               : found;
+    along.error += lateral * (one->length_err + m->direction_err) * m->length +
+                   (part * q * (deepest + lateral) + variation) / (1 - q);
+    return q <= DISPLACEMENT_SLOPE_MAX && along.error < found.error ? along : found;
 }
 
 /* Adds the part of the margins on a facet: its area, with the depths of the whole edge. The area is
@@ -708,7 +704,7 @@ int lrcsi_wall_margins_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t eve
         !wall_edge_make(job, event, part, &m)) {
         return !lrcsi_segment_part_is_empty(at->known);
     }
-    const lrcsi_segment_part near = margin_facet_near(job, &m, facet);
+    const lrcsi_segment_part near = margin_facet_near(job, &m, facet, facet_lateral(job, facet));
     return (at->known.from <= 0 || near.from >= at->known.from) &&
            (at->known.to >= 1 || near.to <= at->known.to);
 }

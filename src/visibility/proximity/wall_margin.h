@@ -14,7 +14,7 @@ typedef struct lrcsi_wall_margin {
     double area;     /* what the true shapes leave visible, less what their facets leave */
     double area_max; /* bound on the area in the margins: F may vary over it */
     double area_err; /* bound on the error of `area`, which is attributed to the facet: a part of it
-                        may be on facets next to it */
+                        may be on other facets */
     uint32_t sectors;  /* so many sectors away from the facet's own they may be, at most */
     double gain, loss; /* the fractions of lrcsi_proximity_band beside these margins */
 } lrcsi_wall_margin;
