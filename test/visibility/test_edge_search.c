@@ -52,7 +52,7 @@ static double facet_distance(uint32_t facet, const lrcsi_edge *e)
 }
 
 /* Marks the events that a search finds. */
-static void mark_found(const lrcsi_grid *grid, const lrcsi_edge_search *search)
+static void mark_found(const lrcsi_grid *grid, const lrcsi_edge_search *search, double near)
 {
     int line = 0;
     lrcsi_grid_walk walk = search->rows;
@@ -64,7 +64,7 @@ static void mark_found(const lrcsi_grid *grid, const lrcsi_edge_search *search)
             const lrcsi_edge *e =
                 &view.prepared->topology.edge[classification.events.edge[grid->item[i]]];
             found[grid->item[i]] |= !lrcsi_edge_search_excludes(search, view.point[e->low].x,
-                                                                view.point[e->high].x, &line);
+                                                                view.point[e->high].x, near, &line);
         }
     }
 }
@@ -89,7 +89,7 @@ static void a_search_finds_what_a_loop_finds(void **state)
         for (uint32_t f = 0; f < count; f++) {
             double near = size * random_unit(&random) * (f % 2 == 0 ? 0.01 : 0.2);
             lrcsi_edge_search search = lrcsi_edge_search_make(&view, &grid, f, near);
-            mark_found(&grid, &search);
+            mark_found(&grid, &search, near);
             for (uint32_t e = 0; e < events; e++) {
                 double distance =
                     facet_distance(f, &view.prepared->topology.edge[classification.events.edge[e]]);

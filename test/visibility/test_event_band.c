@@ -70,12 +70,14 @@ static void outline_areas(double *outside, double *inside)
 }
 
 /* Is it an event edge that the search for a facet does not exclude? */
-static int is_near(const lrcsi_edge_search *where, uint32_t event)
+static int is_near(const lrcsi_edge_search *where, uint32_t facet, uint32_t event)
 {
     int line = 0;
+    const double near =
+        lrcsi_band_near(&bands, facet, prepared.proximity.hausdorff[bands.events.part[event]]);
     const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[event]];
     return !lrcsi_edge_search_excludes(where, view.point[edge->low].x, view.point[edge->high].x,
-                                       &line);
+                                       near, &line);
 }
 
 /* Adds up the bands of both facets of the plate, as areas in projection. */
@@ -90,8 +92,8 @@ static void band_areas(int correspondence, double *gain, double *loss)
         const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
         for (uint32_t e = 0; e < bands.events.count; e++) {
             lrcsi_event_band band;
-            int found =
-                is_near(&where, e) && lrcsi_event_band_make(&bands, &at, e, correspondence, &band);
+            int found = is_near(&where, f, e) &&
+                        lrcsi_event_band_make(&bands, &at, e, correspondence, &band);
             assert_true(!found || bands.events.part[e] == BALL); /* it has no inside to be seen */
             if (found) {
                 assert_true(band.gain >= 0 && band.loss >= 0 && band.area <= 1);

@@ -47,7 +47,7 @@
 #define STEPS_CONSTANT 65536u
 #define STEPS_PER_ITEM 4096u
 #define STEPS_PER_CELL 4096u
-/* A cell without a segment is halved if its area is at most so many times negligible: near a
+/* A cell without a segment is halved if its area is at most so many times chargeable: near a
    contact of a facet that is almost edge-on, samples farther from the contact decide. Heuristic:
    the facets of a larger cell are processed alone. */
 #define MAX_HALVED 0x1p11
@@ -58,10 +58,17 @@
 /* Heuristics: if the number of facets that remain to be processed alone, times that of all facets,
    exceeds MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are
    accepted: a facet alone is compared with every facet that might hide it. In a scene with curved
-   shapes it is CURVED_FACTOR, because there most shadows differ from the true ones by far more. */
-#define MANY_LEFT     65536u
-#define SINGLE_FACTOR 4
-#define CURVED_FACTOR 16
+   shapes it is CURVED_FACTOR, because there most shadows differ from the true ones by far more; and
+   of a facet that represents a curved surface errors of up to REACH_FRACTION of the area that it
+   has within its part's reach of a line along it. */
+#define MANY_LEFT      65536u
+#define SINGLE_FACTOR  4
+#define CURVED_FACTOR  16
+#define REACH_FRACTION 0x1p-9
+/* In a scene with curved shapes, cells of so many times the negligible area are chargeable: where
+   long, narrow facets meet, thousands of cells are undecided, and the facets that a single one is
+   charged to are accurate enough all the same. */
+#define CURVED_CHARGEABLE 0x1p12
 /* A facet counts as a needle here if its projected area is less than this, relative to its diameter
    squared. Heuristic: those that are needles to visibility/cells/target.c, and some that are wider.
    */
@@ -283,7 +290,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     const int divided =
         cut ? lrcsi_cells_divide(d, cell, &s, cut, covers && thin == 0 ? sample->at : NULL)
             : sample->outcome == LRCSI_SAMPLE_UNSURE &&
-                  lrcsi_clip_area(&cell->shape) <= MAX_HALVED * d->negligible &&
+                  lrcsi_clip_area(&cell->shape) <= MAX_HALVED * d->chargeable &&
                   lrcsi_cells_halve(d, cell, &s);
     if (!divided) {
         add_finding(b, cell, LRCSI_FINDING_UNDECIDED);
@@ -364,9 +371,10 @@ static double extent_of(const lrcs_prepared *p)
    projected area; and 1e-15 of the squared extent or, if as_single and if that is more,
    SINGLE_FACTOR or CURVED_FACTOR times the least error of the facet processed alone
    (visibility/cells/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a
-   strip 128 u of the diameter wide. Needles, and facets with a diameter of twice the extent or
-   more, are much more accurate alone: for these there is only the first term, unless they represent
-   a curved surface, from which they differ by far more. */
+   strip 128 u of the diameter wide. In a scene with curved shapes it is at least REACH_FRACTION of
+   the reach of the facet's part times the diameter. Needles, and facets with a diameter of twice
+   the extent or more, are much more accurate alone: for these there is only the first term, unless
+   they represent a curved surface, from which they differ by far more. */
 static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double projected, int as_single)
 {
     const lrcsi_view *view = b->division.view;
@@ -382,7 +390,12 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
     int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * b->area[facet].strip_length);
-    alone *= view->prepared->proximity.reach ? CURVED_FACTOR : SINGLE_FACTOR;
+    if (view->prepared->proximity.reach) {
+        const double reach = view->prepared->proximity.reach[scene->facet_part[facet]];
+        alone = lrcsi_max(CURVED_FACTOR * alone, REACH_FRACTION * reach * diameter);
+    } else {
+        alone *= SINGLE_FACTOR;
+    }
     alone = as_single ? alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
@@ -552,11 +565,13 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
     double extent = extent_of(view->prepared);
+    double negligible = 0x1p-10 * ACCURACY_OF_SCENE * extent * extent;
+    double chargeable = (view->prepared->proximity.reach ? CURVED_CHARGEABLE : 1) * negligible;
     cells_job job = {.moment = moment};
     job.blocks.frame.view = view;
     job.blocks.wanted = wanted;
     job.blocks.division = (lrcsi_division){
-        .view = view, .meter = meter, .negligible = 0x1p-10 * ACCURACY_OF_SCENE * extent * extent};
+        .view = view, .meter = meter, .negligible = negligible, .chargeable = chargeable};
     memset(found, 0, view->prepared->scene->facet_count);
     if (cells_allocate(classification, answer, work, &job)) {
         uint32_t size = job.blocks.grid.size;

@@ -226,7 +226,7 @@ int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcs
 {
     double wide = NARROW_STRIPS * (cell->widest_strip + d->facet_err + s->tolerance);
     double area = lrcsi_clip_area(&cell->shape) + 2 * s->tolerance * s->perimeter;
-    if (!(area < wide * s->perimeter || area <= d->negligible)) {
+    if (!(area < wide * s->perimeter || area <= d->chargeable)) {
         return 0;
     }
     for (uint32_t i = 0; i < cell->facet_count; i++) {

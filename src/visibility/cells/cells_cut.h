@@ -30,8 +30,8 @@ void lrcsi_cells_charge_border(lrcsi_division *d, lrcsi_cell *cell, const lrcsi_
 double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                                     double border_distance, uint32_t segments, double line_err);
 
-/* Charges the whole area of a cell that has no room for a sample, if it is narrow or negligible. 0
-   if not. */
+/* Charges the whole area of a cell in which no sample decides, if it is narrow or chargeable. 0 if
+   not. */
 int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s);
 
 #endif

@@ -79,6 +79,7 @@ typedef struct lrcsi_division {
     unsigned char *wanted; /* record: 1 if its area is wanted */
     lrcsi_cell_area *area; /* record */
     double negligible;     /* an undecided area that is charged without computing it more closely */
+    double chargeable;     /* the largest area of an undecided cell that is charged whole */
 
     /* The cells that wait, and the room for their lists: */
     lrcsi_cell *stack;

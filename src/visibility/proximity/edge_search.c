@@ -5,14 +5,12 @@
 
 #include <math.h>
 
-#include "base/outward.h"
 #include "base/range.h"
 #include "visibility/proximity/edge_rectangle.h"
 
-/* The line parallel to a side at the distance `near` from the facet; nothing is beyond it if the
-   side has no length. */
-static void search_line(lrcsi_edge_search *search, int side, const double *const corner[3],
-                        double near)
+/* The outward normal of a side and how far the facet extends along it; nothing is beyond the side if
+   it has no length. */
+static void search_line(lrcsi_edge_search *search, int side, const double *const corner[3])
 {
     const double *from = corner[side];
     const double *to = corner[(side + 1) % 3];
@@ -28,7 +26,7 @@ static void search_line(lrcsi_edge_search *search, int side, const double *const
         highest = lrcsi_max(
             highest, lrcsi_edge_search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
     }
-    search->limit[side] = length > 0 ? highest + near * LRCSI_OUTWARD_SUM : HUGE_VAL;
+    search->highest[side] = length > 0 ? highest : HUGE_VAL;
 }
 
 lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_grid *grid,
@@ -43,7 +41,7 @@ lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_gri
     for (int k = 0; k < 3; k++) {
         search.low[k] -= wide;
         search.high[k] += wide;
-        search_line(&search, k, point, near);
+        search_line(&search, k, point);
     }
     const lrcsi_view_box box = lrcsi_view_box_round(view, search.low, search.high);
     const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);

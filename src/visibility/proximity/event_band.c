@@ -167,12 +167,19 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
     return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
 }
 
+/* A slack is at most e_P + 2 k_Q or 2 e_P, with 2 e_P at the sides of a facet; the error of an order
+   is at most k_Q / 2. */
+double lrcsi_band_near(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff)
+{
+    const double reach = bands->view->prepared->proximity.reach[facet_part(bands, facet)];
+    return 2 * reach + 3 * hausdorff + 2 * LRCSI_PROXIMITY_ERR;
+}
+
 lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet)
 {
-    const lrcs_prepared *p = bands->view->prepared;
-    double reach = p->proximity.reach[facet_part(bands, facet)];
-    double near = 2 * (reach + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
-    return lrcsi_edge_search_make(bands->view, &bands->events.grid, facet, near);
+    const double most = bands->view->prepared->proximity.max_hausdorff;
+    return lrcsi_edge_search_make(bands->view, &bands->events.grid, facet,
+                                  lrcsi_band_near(bands, facet, most));
 }
 
 int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)

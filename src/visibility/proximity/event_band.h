@@ -38,6 +38,9 @@ enum lrcsi_correspondence {
 /* Is an event edge a rim inside the outline of its part? */
 int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event);
 
+/* How far from a facet in projection event edges matter, of parts with this Hausdorff distance. */
+double lrcsi_band_near(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff);
+
 /* Where to look for the event edges that may be near a facet. */
 lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
 

@@ -151,11 +151,15 @@ static int pierces_face(const band_job *job, uint32_t facet, uint32_t other)
            lrcsi_face_has_facet(job->view, facet);
 }
 
-/* Lists the event edges near a facet: job->listed[0..*count). Returns 0 if the limit of steps is
-   reached. */
-static int find_events(band_job *job, const lrcsi_edge_search *where, uint32_t *count)
+/* Lists the event edges near a facet: job->listed[0..*count). Those of its own part are left out
+   unless the laser sees its inside (event_band.c, 3). Returns 0 if the limit of steps is reached. */
+static int find_events(band_job *job, uint32_t facet, const lrcsi_edge_search *where,
+                       uint32_t *count)
 {
     const lrcsi_event_bands *bands = &job->bands;
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t left_out =
+        lrcsi_band_sees_inside(bands, facet) ? LRCS_NONE : p->scene->facet_part[facet];
     const lrcsi_grid *grid = &bands->events.grid;
     lrcsi_grid_walk walk = where->rows;
     lrcsi_grid_row row;
@@ -169,13 +173,15 @@ static int find_events(band_job *job, const lrcsi_edge_search *where, uint32_t *
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             const uint32_t event = grid->item[i];
-            if (lrcsi_marked(&job->considered, event)) {
+            if (bands->events.part[event] == left_out || lrcsi_marked(&job->considered, event)) {
                 continue;
             }
             job->considered.entry[event] = job->considered.number;
-            const lrcsi_edge *edge = &job->view->prepared->topology.edge[bands->events.edge[event]];
+            const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
+            const double near =
+                lrcsi_band_near(bands, facet, p->proximity.hausdorff[bands->events.part[event]]);
             if (!lrcsi_edge_search_excludes(where, job->view->point[edge->low].x,
-                                            job->view->point[edge->high].x, &line)) {
+                                            job->view->point[edge->high].x, near, &line)) {
                 job->listed[(*count)++] = event;
             }
         }
@@ -331,7 +337,7 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
         return;
     }
     uint32_t count; /* 2 */
-    const int found = find_events(job, &where, &count);
+    const int found = find_events(job, facet, &where, &count);
     job->unproved_aligned = 0;
     const int aligned = on_face || begin_aligned(job, facet);
     if (!found) {
