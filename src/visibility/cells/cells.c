@@ -58,13 +58,15 @@
 /* Heuristics: if the number of facets that remain to be processed alone, times that of all facets,
    exceeds MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are
    accepted: a facet alone is compared with every facet that might hide it. In a scene with curved
-   shapes it is CURVED_FACTOR, because there most shadows differ from the true ones by far more; and
-   of a facet that represents a curved surface errors of up to REACH_FRACTION of the area that it
-   has within its part's reach of a line along it. */
-#define MANY_LEFT      65536u
-#define SINGLE_FACTOR  4
-#define CURVED_FACTOR  16
-#define REACH_FRACTION 0x1p-9
+   shapes it is CURVED_FACTOR, because there most shadows differ from the true ones by far more; so
+   there errors of up to CURVED_ACCURACY of the projected area are accepted too, and of a facet that
+   represents a curved surface those of up to REACH_FRACTION of the area that it has within its
+   part's reach of a line along it. */
+#define MANY_LEFT       65536u
+#define SINGLE_FACTOR   4
+#define CURVED_FACTOR   16
+#define CURVED_ACCURACY 2e-10
+#define REACH_FRACTION  0x1p-9
 /* In a scene with curved shapes, cells of so many times the negligible area are chargeable: where
    long, narrow facets meet, thousands of cells are undecided, and the facets that a single one is
    charged to are accurate enough all the same. */
@@ -371,15 +373,18 @@ static double extent_of(const lrcs_prepared *p)
    projected area; and 1e-15 of the squared extent or, if as_single and if that is more,
    SINGLE_FACTOR or CURVED_FACTOR times the least error of the facet processed alone
    (visibility/cells/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a
-   strip 128 u of the diameter wide. In a scene with curved shapes it is at least REACH_FRACTION of
-   the reach of the facet's part times the diameter. Needles, and facets with a diameter of twice
-   the extent or more, are much more accurate alone: for these there is only the first term, unless
-   they represent a curved surface, from which they differ by far more. */
+   strip 128 u of the diameter wide. If as_single in a scene with curved shapes, the first term is
+   CURVED_ACCURACY of the projected area, and the second at least REACH_FRACTION of the reach of the
+   facet's part times the diameter. Needles, and facets with a diameter of twice the extent or more,
+   are much more accurate alone: for these there is only the first term, unless they represent a
+   curved surface, from which they differ by far more. */
 static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double projected, int as_single)
 {
     const lrcsi_view *view = b->division.view;
     const lrcs_scene *scene = view->prepared->scene;
     const uint32_t *corner = scene->facet[facet].corner;
+    const double *reaches = view->prepared->proximity.reach; /* NULL: no part is curved */
+    const double reach = reaches ? reaches[scene->facet_part[facet]] : 0;
     double diameter = 0;
     for (int k = 0; k < 3; k++) {
         const double *p = view->point[corner[k]].x;
@@ -387,18 +392,17 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
         diameter = lrcsi_max3(diameter, fabs(p[0] - q[0]), fabs(p[1] - q[1]));
     }
     double extent = extent_of(view->prepared);
-    int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
-                   (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
-    double alone = LRCSI_U * diameter * (104 * diameter + 128 * b->area[facet].strip_length);
-    if (view->prepared->proximity.reach) {
-        const double reach = view->prepared->proximity.reach[scene->facet_part[facet]];
-        alone = lrcsi_max(CURVED_FACTOR * alone, REACH_FRACTION * reach * diameter);
-    } else {
-        alone *= SINGLE_FACTOR;
+    double of_facet = ACCURACY_OF_FACET * projected;
+    double of_scene = ACCURACY_OF_SCENE * extent * extent;
+    if (as_single) {
+        double alone = LRCSI_U * diameter * (104 * diameter + 128 * b->area[facet].strip_length);
+        alone *= reaches ? CURVED_FACTOR : SINGLE_FACTOR;
+        of_scene = lrcsi_max3(of_scene, alone, REACH_FRACTION * reach * diameter);
+        of_facet = reaches ? CURVED_ACCURACY * projected : of_facet;
     }
-    alone = as_single ? alone : 0;
-    return ACCURACY_OF_FACET * projected +
-           (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
+    int ordinary =
+        reach > 0 || (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
+    return of_facet + (ordinary ? of_scene : 0);
 }
 
 /* Finishes the moment of a facet whose area is reported. What was added differs from the visible
