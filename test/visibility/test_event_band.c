@@ -73,8 +73,8 @@ static void outline_areas(double *outside, double *inside)
 static int is_near(const lrcsi_edge_search *where, uint32_t facet, uint32_t event)
 {
     int line = 0;
-    const double near =
-        lrcsi_band_near(&bands, facet, prepared.proximity.hausdorff[bands.events.part[event]]);
+    const double near = lrcsi_band_near(
+        &bands, facet, view.prepared->proximity.hausdorff[bands.events.part[event]]);
     const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[event]];
     return !lrcsi_edge_search_excludes(where, view.point[edge->low].x, view.point[edge->high].x,
                                        near, &line);
@@ -206,7 +206,7 @@ static void check_sides(int near_diagonal)
         lrcsi_near_sides near = {{{1, 0}, {1, 0}, {1, 0}}};
         unsigned sides = 0;
         for (uint32_t e = 0; e < bands.events.count; e++) {
-            if (is_near(&where, e)) {
+            if (is_near(&where, f, e)) {
                 lrcsi_event_sides(&bands, &at, e, &near);
             }
         }
