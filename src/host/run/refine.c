@@ -33,10 +33,12 @@
 /* If the error of a level that is divided already exceeds what is allowed by more than LARGE_STEP,
    all parts with at least ALIKE_FRACTION of it are halved together, because an error where two
    parts meet is attributed to either of them only roughly; but no part for which that takes more
-   than ALIKE_FACETS of all facets. */
+   than ALIKE_FACETS of all facets, and only until their error exceeds what is allowed by no more
+   than ALIKE_EXCESS. The rest is done by the parts where it takes the fewest facets. */
 #define LARGE_STEP     16.0
 #define ALIKE_FRACTION 0x1p-6
 #define ALIKE_FACETS   0x1p-3
+#define ALIKE_EXCESS   3.0
 /* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
 #define TOLERANCE_MIN 1e-12
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
@@ -224,13 +226,19 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
     choice->error *= choice->factor;
 }
 
-/* Halves parts, each time the best one and all with at least the fraction `least` of the error for
-   which that takes at most the fraction `most` of all facets, until their total error is allowed,
-   or no part can be halved any further. If the parts that cannot be halved have more error than is
-   allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number of
-   facets. */
+/* Which parts are halved together with the best one: those with at least the fraction `error` of
+   the error, for which that takes at most the fraction `facets` of all facets, while the error
+   exceeds what is allowed by more than the factor `excess`. */
+typedef struct alike_rule {
+    double error, facets, excess;
+} alike_rule;
+
+/* Halves parts, each time the best one and those that a rule adds, until their total error is
+   allowed, or no part can be halved any further. If the parts that cannot be halved have more error
+   than is allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number
+   of facets. */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
-                            double allowed, double least, double most, part_choice *choice,
+                            double allowed, const alike_rule *alike, part_choice *choice,
                             unsigned char *halvings)
 {
     for (;;) {
@@ -248,7 +256,9 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
         }
         for (uint32_t i = 0; i < levels->parts; i++) {
             const double price = (choice[i].growth - 1.0) * choice[i].facets;
-            if (i == best || (choice[i].error >= least * error && price <= most * facets)) {
+            if (i == best ||
+                (error > alike->excess * allowed && choice[i].error >= alike->error * error &&
+                 price <= alike->facets * facets)) {
                 choice_halve(levels, tolerance, &choice[i], &halvings[i]);
             }
         }
@@ -272,7 +282,8 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
     }
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
-    double least = HUGE_VAL; /* only the best part */
+    static const alike_rule all = {0.0, HUGE_VAL, 0.0};
+    alike_rule rule = {HUGE_VAL, 0.0, 0.0}; /* only the best part */
     int reachable = 1;
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
@@ -282,13 +293,12 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
             reachable &= choice[i].error <= left ||
                          part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
             if (from[i] > 0 && result->budget.tessellation_m2 > LARGE_STEP * allowed) {
-                least = ALIKE_FRACTION;
+                rule = (alike_rule){ALIKE_FRACTION, ALIKE_FACETS, ALIKE_EXCESS};
             }
         }
-        double facets = choices_halve(levels, options->tolerance, allowed, least, ALIKE_FACETS,
-                                      choice, halvings);
+        double facets = choices_halve(levels, options->tolerance, allowed, &rule, choice, halvings);
         choices_start(scene, result, part_error_m2, from, choice);
-        if (choices_halve(levels, options->tolerance, allowed, 0.0, HUGE_VAL, choice, alike) <
+        if (choices_halve(levels, options->tolerance, allowed, &all, choice, alike) <
             SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
         }
