@@ -211,7 +211,8 @@ typedef struct sample_answer {
 } sample_answer;
 
 /* Includes one candidate in the answer. `sides`: where its sides are kept; NULL: they are not.
-   Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
+   Boxes exclude most candidates, and view coordinates most of those whose sides in f's frame would
+   have to be computed for this sample. The depth order, which takes longest, is computed last. */
 static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, double tolerance,
                            uint32_t other, lrcsi_facet_cells_side sides[3],
                            lrcsi_facet_cells_sample *sample, sample_answer *answer)
@@ -220,7 +221,7 @@ static void sample_compare(lrcsi_facet_cells *cells, const lrcsi_cell *cell, dou
     unsigned char *order = &cells->order[other];
     if (*order == LRCSI_ORDER_BEHIND ||
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&cells->grid.boxes, other)) ||
-        (cells->frame.needle && sample_is_beyond(cells, sample, other))) {
+        ((cells->frame.needle || !sides) && sample_is_beyond(cells, sample, other))) {
         return;
     }
     lrcsi_facet_cells_side not_kept[3] = {{.err = -1}};
