@@ -8,9 +8,9 @@
 #include "base/range.h"
 #include "visibility/proximity/edge_rectangle.h"
 
-/* The outward normal of a side and how far the facet extends along it; nothing is beyond the side if
-   it has no length. */
-static void search_line(lrcsi_edge_search *search, int side, const double *const corner[3])
+/* The outward normal of a side and how far the facet extends along it. Nothing is beyond a side
+   without length. */
+static void search_side(lrcsi_edge_search *search, int side, const double *const corner[3])
 {
     const double *from = corner[side];
     const double *to = corner[(side + 1) % 3];
@@ -41,7 +41,7 @@ lrcsi_edge_search lrcsi_edge_search_make(const lrcsi_view *view, const lrcsi_gri
     for (int k = 0; k < 3; k++) {
         search.low[k] -= wide;
         search.high[k] += wide;
-        search_line(&search, k, point);
+        search_side(&search, k, point);
     }
     const lrcsi_view_box box = lrcsi_view_box_round(view, search.low, search.high);
     const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);

@@ -167,8 +167,8 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
     return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
 }
 
-/* A slack is at most e_P + 2 k_Q or 2 e_P, with 2 e_P at the sides of a facet; the error of an order
-   is at most k_Q / 2. */
+/* A slack is at most e_P + 2 k_Q or 2 e_P, and 2 e_P + 2 k_Q at the sides of a facet; the error of
+   an order is at most k_Q / 2. */
 double lrcsi_band_near(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff)
 {
     const double reach = bands->view->prepared->proximity.reach[facet_part(bands, facet)];

@@ -152,7 +152,8 @@ static int pierces_face(const band_job *job, uint32_t facet, uint32_t other)
 }
 
 /* Lists the event edges near a facet: job->listed[0..*count). Those of its own part are left out
-   unless the laser sees its inside (event_band.c, 3). Returns 0 if the limit of steps is reached. */
+   unless the laser sees its inside (event_band.c, 3). Returns 0 if the limit of steps is reached.
+   */
 static int find_events(band_job *job, uint32_t facet, const lrcsi_edge_search *where,
                        uint32_t *count)
 {
