@@ -400,8 +400,8 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
         of_scene = lrcsi_max3(of_scene, alone, REACH_FRACTION * reach * diameter);
         of_facet = reaches ? CURVED_ACCURACY * projected : of_facet;
     }
-    int ordinary =
-        reach > 0 || (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
+    int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
+                   (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     return of_facet + (ordinary ? of_scene : 0);
 }
 
