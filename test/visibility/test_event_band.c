@@ -73,11 +73,7 @@ static void outline_areas(double *outside, double *inside)
 static int is_near(const lrcsi_edge_search *where, uint32_t facet, uint32_t event)
 {
     int line = 0;
-    const double near = lrcsi_band_near(
-        &bands, facet, view.prepared->proximity.hausdorff[bands.events.part[event]]);
-    const lrcsi_edge *edge = &view.prepared->topology.edge[bands.events.edge[event]];
-    return !lrcsi_edge_search_excludes(where, view.point[edge->low].x, view.point[edge->high].x,
-                                       near, &line);
+    return !lrcsi_band_excludes(&bands, facet, where, event, &line);
 }
 
 /* Adds up the bands of both facets of the plate, as areas in projection. */

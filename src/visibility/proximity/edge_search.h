@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Where to look for event edges near a facet in projection: in a box, and in rows of the grid
-   between the facet's sides, whose errors include the largest relevant distance. Beyond a line
-   parallel to one of the sides, at a distance that depends on the edge, it is too far away. */
+   between the facet's sides, whose errors include the largest relevant distance. An edge is too far
+   away if all of it is beyond a line parallel to one of the sides, at a distance given for it. */
 #ifndef LRCSI_EDGE_SEARCH_H
 #define LRCSI_EDGE_SEARCH_H
 

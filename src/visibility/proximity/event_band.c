@@ -167,9 +167,10 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
     return lrcsi_proximity_slack_across(p, part, bands->events.part[event], lateral);
 }
 
-/* A slack is at most e_P + 2 k_Q or 2 e_P, and 2 e_P + 2 k_Q at the sides of a facet; the error of
-   an order is at most k_Q / 2. */
-double lrcsi_band_near(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff)
+/* How far from a facet in projection event edges matter, of parts with this Hausdorff distance. A
+   slack is at most e_P + 2 k_Q or 2 e_P, and 2 e_P + 2 k_Q at the sides of a facet; the error of an
+   order is at most k_Q / 2. */
+static double largest_slack(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff)
 {
     const double reach = bands->view->prepared->proximity.reach[facet_part(bands, facet)];
     return 2 * reach + 3 * hausdorff + 2 * LRCSI_PROXIMITY_ERR;
@@ -179,7 +180,18 @@ lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t fac
 {
     const double most = bands->view->prepared->proximity.max_hausdorff;
     return lrcsi_edge_search_make(bands->view, &bands->events.grid, facet,
-                                  lrcsi_band_near(bands, facet, most));
+                                  largest_slack(bands, facet, most));
+}
+
+int lrcsi_band_excludes(const lrcsi_event_bands *bands, uint32_t facet,
+                        const lrcsi_edge_search *where, uint32_t event, int *line)
+{
+    const lrcsi_view *view = bands->view;
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
+    const double hausdorff = p->proximity.hausdorff[bands->events.part[event]];
+    return lrcsi_edge_search_excludes(where, view->point[edge->low].x, view->point[edge->high].x,
+                                      largest_slack(bands, facet, hausdorff), line);
 }
 
 int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)

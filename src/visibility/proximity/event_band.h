@@ -38,11 +38,13 @@ enum lrcsi_correspondence {
 /* Is an event edge a rim inside the outline of its part? */
 int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event);
 
-/* How far from a facet in projection event edges matter, of parts with this Hausdorff distance. */
-double lrcsi_band_near(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff);
-
 /* Where to look for the event edges that may be near a facet. */
 lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
+
+/* Is an event edge that such a search meets too far from the facet, for its part? *line: as for
+   lrcsi_edge_search_excludes. */
+int lrcsi_band_excludes(const lrcsi_event_bands *bands, uint32_t facet,
+                        const lrcsi_edge_search *where, uint32_t event, int *line);
 
 /* The sector of a straight wall that a facet lies on, in view coordinates: see event_band.c, 7. */
 typedef struct lrcsi_band_sector {

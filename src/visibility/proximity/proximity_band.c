@@ -158,9 +158,9 @@ static int find_events(band_job *job, uint32_t facet, const lrcsi_edge_search *w
                        uint32_t *count)
 {
     const lrcsi_event_bands *bands = &job->bands;
-    const lrcs_prepared *p = job->view->prepared;
-    const uint32_t left_out =
-        lrcsi_band_sees_inside(bands, facet) ? LRCS_NONE : p->scene->facet_part[facet];
+    const uint32_t left_out = lrcsi_band_sees_inside(bands, facet)
+                                  ? LRCS_NONE
+                                  : job->view->prepared->scene->facet_part[facet];
     const lrcsi_grid *grid = &bands->events.grid;
     lrcsi_grid_walk walk = where->rows;
     lrcsi_grid_row row;
@@ -178,11 +178,7 @@ static int find_events(band_job *job, uint32_t facet, const lrcsi_edge_search *w
                 continue;
             }
             job->considered.entry[event] = job->considered.number;
-            const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
-            const double near =
-                lrcsi_band_near(bands, facet, p->proximity.hausdorff[bands->events.part[event]]);
-            if (!lrcsi_edge_search_excludes(where, job->view->point[edge->low].x,
-                                            job->view->point[edge->high].x, near, &line)) {
+            if (!lrcsi_band_excludes(bands, facet, where, event, &line)) {
                 job->listed[(*count)++] = event;
             }
         }
