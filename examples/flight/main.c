@@ -88,7 +88,7 @@ int flight_main(void)
 /* expected output, the bits of areas left out:
 cycle 1 status 0 stale 0 flags 0 steps 45270 sigma mm2 30579551 bound mm2 9
 cycle 2 status 0 stale 0 flags 0 steps 38203 sigma mm2 1697619 bound mm2 145
-cycle 3 status 0 stale 0 flags 0 steps 36661 sigma mm2 7070226 bound mm2 88
+cycle 3 status 0 stale 0 flags 0 steps 36518 sigma mm2 7070226 bound mm2 88
 cycle 4 status 0 stale 0 flags 0 steps 20941 sigma mm2 1076713 bound mm2 27
 cycle 5 status -1 stale 1 flags 0 steps 20941 sigma mm2 1076713 bound mm2 27
 cycle 6 status -6 stale 2 flags 0 steps 20941 sigma mm2 1076713 bound mm2 27

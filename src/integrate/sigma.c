@@ -21,7 +21,7 @@
 #include "base/work.h"
 #include "integrate/image.h"
 #include "integrate/sigma_run.h"
-#include "integrate/wall/open_sectors.h"
+#include "integrate/wall/clear_sectors.h"
 #include "integrate/wall/round_rim.h"
 #include "visibility/raster/preview.h"
 #include "visibility/raster/visible.h"
@@ -52,6 +52,15 @@ static int moments_wanted(const lrcs_prepared *prepared)
     return prepared->proximity.reach && !prepared->has_curved_normals;
 }
 
+/* Are integrals over sectors of curved walls wanted? Of a convex part that is alone, also without
+   moments. */
+static int wall_terms_wanted(const lrcs_prepared *prepared)
+{
+    return moments_wanted(prepared) ||
+           (prepared->convex && prepared->scene->part_count == 1 && prepared->has_curved_shapes &&
+            !prepared->has_curved_normals);
+}
+
 /* 1. Results by facet: areas, moments, integrals over curved normals;
    2. the view, clear shapes, the classification, the proximity band;
    3. visible areas: by clipping, or by a raster, after which facets with curved normals that are
@@ -66,22 +75,24 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
                              ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curve_terms)),
                                               lrcsi_cubature_need())
                              : 0;
+    size_t wall_terms =
+        wall_terms_wanted(prepared) ? lrcsi_work_bytes(facets, sizeof(lrcsi_wall_terms)) : 0;
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
+        errors = lrcsi_work_add(errors, prepared->convex ? wall_terms : 0);
         return lrcsi_work_add(lrcsi_work_add(lrcsi_view_face_need(prepared), errors),
                               prepared->has_curved_normals ? lrcsi_work_add(areas, curve_terms)
                                                            : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_work_add(lrcsi_view_need(prepared), errors),
-                                 lrcsi_work_add(areas, curve_terms));
+                                 lrcsi_work_add(lrcsi_work_add(areas, curve_terms), wall_terms));
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
     }
     if (moments_wanted(prepared)) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
-        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_terms)));
         need = lrcsi_work_add(need, lrcsi_round_rim_need(prepared));
-        need = lrcsi_work_add(need, lrcsi_open_sectors_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_clear_sectors_need(prepared));
     }
     if (prepared->proximity.reach) {
         need =
@@ -122,8 +133,10 @@ static int run_allocate(lrcsi_sigma *run)
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
     memory->moment = moments ? lrcsi_work_take(run->work, facets, sizeof *memory->moment) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
+    int wall_terms = wall_terms_wanted(p) && run->plan.method != LRCS_METHOD_CLOSED &&
+                     (moments || run->plan.fronts_visible);
     memory->wall_terms =
-        moments ? lrcsi_work_take(run->work, facets, sizeof *memory->wall_terms) : NULL;
+        wall_terms ? lrcsi_work_take(run->work, facets, sizeof *memory->wall_terms) : NULL;
     int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;
     memory->face =
         faces ? lrcsi_work_take(run->work, LRCSI_FACES_OF_PART * (size_t)p->scene->part_count,
@@ -132,9 +145,8 @@ static int run_allocate(lrcsi_sigma *run)
     run->curve_terms =
         p->has_curved_normals ? lrcsi_work_take(run->work, facets, sizeof *run->curve_terms) : NULL;
     run->stack = p->has_curved_normals ? lrcsi_cubature_stack(run->work) : NULL;
-    return (memory->visible || !areas) &&
-                   ((memory->moment && run->corrected && memory->wall_terms) || !moments) &&
-                   (memory->face || !faces) &&
+    return (memory->visible || !areas) && ((memory->moment && run->corrected) || !moments) &&
+                   (memory->wall_terms || !wall_terms) && (memory->face || !faces) &&
                    ((run->curve_terms && run->stack) || !p->has_curved_normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;

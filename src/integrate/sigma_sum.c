@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "integrate/sigma_run.h"
-#include "integrate/wall/open_sectors.h"
+#include "integrate/wall/clear_sectors.h"
 #include "integrate/wall/round_pieces.h"
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
@@ -63,6 +63,17 @@ lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
                             &run->clear, &details);
 }
 
+/* Integrates over the sectors at the limb of a convex part that is alone: nothing hides any. */
+static void limbs_integrate(lrcsi_sigma *run)
+{
+    if (run->plan.fronts_visible && run->view.prepared->scene->part_count == 1 &&
+        run->memory.wall_terms) {
+        lrcsi_clear_sectors_make(&run->view, &run->plan, NULL, NULL, run->request.derivatives,
+                                 run->work, run->memory.wall_terms);
+        run->areas.wall_terms = run->memory.wall_terms;
+    }
+}
+
 /* The areas of method facet. Only facets with curved normals need them in memory; for all others
    lrcsi_total_make derives them from the plan. */
 void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
@@ -79,6 +90,7 @@ void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
         lrcsi_curve_from_areas(view, &options, visible, run->curve_terms);
     }
     run->areas = (lrcsi_areas){.visible = visible};
+    limbs_integrate(run);
     run->outcome.total = lrcsi_sigma_sum(run, NULL);
 }
 
@@ -130,8 +142,9 @@ static void areas_apply_proofs(lrcsi_sigma *run)
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
       partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. masks the facets of the proximity band that are hidden, chooses the flat faces whose margins
-      are used, and integrates over the insides of open walls on which only their own rims cast
-      shadows, and over the visible pieces of round walls.
+      are used, and integrates over the sectors of which other parts hide nothing, at the limb and
+      on insides on which only their own rims cast shadows, and over the visible pieces of round
+      walls.
    Steps are taken from the given meter, that of the attempt. */
 void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
 {
@@ -156,10 +169,12 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
         run->areas.margins = &run->masked;
     }
     if (run_band(run) && run->areas.moment) {
-        lrcsi_open_sectors_make(&run->view, &run->plan, &run->masked, memory->visible,
-                                run->request.derivatives, run->work, memory->wall_terms);
+        lrcsi_clear_sectors_make(&run->view, &run->plan, &run->masked, memory->visible,
+                                 run->request.derivatives, run->work, memory->wall_terms);
         lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, memory->visible,
                                 run->request.derivatives, meter, run->work, memory->wall_terms);
         run->areas.wall_terms = memory->wall_terms;
+    } else {
+        limbs_integrate(run);
     }
 }

@@ -133,8 +133,9 @@ same unit_scales_the_model "$(value area_m2)" 4.9999999999999998e-07
 
 # ---- patience ----
 printf '[[part]]\nname = "ball"\nshape = "sphere"\nradius = 1\nmaterial = "matt"\n[[material]]\nname = "matt"\nA = 0\nB = 0.3\ns = 0.2\nm = 1\n' >ball.toml
-run run ball.toml --tolerance 1e-8 --method facet
-same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^notice: [0-9]* facets for a tolerance of 1e-08: .* takes a while$')" 1
+printf '[[part]]\nname = "tube"\nshape = "cylinder"\nradius = 0.5\nlength = 3\nmaterial = "matt"\n' | cat - ball.toml >pierced.toml
+run run pierced.toml --tolerance 1e-5 --azel 20,30
+same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^notice: [0-9]* facets for a tolerance of 1e-05: .* takes a while$')" 1
 run run ball.toml --tolerance 1e-1
 same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0
 

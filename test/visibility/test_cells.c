@@ -78,11 +78,13 @@ static lrcsi_visible_area clip_with_moment(lrcsi_occlusion *o, uint32_t f)
     const lrcsi_moment *by_pieces = &o->single.moment;
     double size = o->single.target.diameter;
     double rounding = 1e-14 * size * size * size;
+    const double by_pieces_err = by_pieces->error + size * by_pieces->area_err;
     for (int k = 0; k < 2 && undecided && by_pieces->error < HUGE_VAL; k++) {
-        check_abs(by_pieces->first[k], first[k], by_pieces->error + rounding);
+        const double err = moment[f].error + size * moment[f].area_err;
+        check_abs(by_pieces->first[k], first[k], by_pieces_err + rounding);
         if (!open[f]) {
-            check_abs(moment[f].first[k], first[k], by_pieces->error + moment[f].error + rounding);
-            check_most(moment[f].error, size * (1e-11 * lrcsi_view_projected(&view, f) + 1e-14));
+            check_abs(moment[f].first[k], first[k], by_pieces_err + err + rounding);
+            check_most(err, size * (1e-11 * lrcsi_view_projected(&view, f) + 1e-14));
             moments_known++;
         }
     }

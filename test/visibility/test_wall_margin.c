@@ -321,7 +321,7 @@ static void no_margin_is_known_without_the_conditions(void **state)
     find_margins(two, 3, 1e-3, d);
     wall_sums sum = sum_of_wall();
     assert_true(sum.facets > 4 && sum.gain + sum.loss > 1e-3 * (sum.all_gain + sum.all_loss));
-    lrcs_recipe_part meeting[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 1.1, 0, 1.5)};
+    lrcs_recipe_part meeting[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 0.8, 0, 1.5)};
     find_margins(meeting, 2, 1e-3, d);
     sum = sum_of_wall();
     assert_true(sum.facets == 0 && sum.all_gain > 0);

@@ -8,7 +8,7 @@
    (integrate/sum/total_facet.c): from the integrals over its curved normals, over the visible
    pieces of its round wall, as the mean over its patch, or from its normal. The margins of a flat
    face, which one of its facets has, and those on a wall (lrcsi_areas_margin) are added to visible
-   areas.
+   areas. A facet that faces away may have the integral over a patch at the limb.
    Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
    lrcsi_shape_response_make. */
 #include "integrate/derivative/sensitivity.h"
@@ -174,23 +174,29 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
-        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape ||
-            !lrcsi_areas_is_summed(&areas, view, f)) {
+        const int reflects = view->facing[f] != 0 && lrcsi_view_reflects(view, f);
+        const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(&areas, f);
+        if (in_clear_shape || !(reflects ? lrcsi_areas_is_summed(&areas, view, f) : wall != NULL)) {
             continue;
         }
-        const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(&areas, f);
         uint32_t material = scene->facet_material[f];
-        lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double fraction = visible_fraction(&areas, run, f, &incidence);
-        const double margin = lrcsi_areas_margin(&areas, view, f);
-        fraction += margin != 0 ? margin / incidence.projected : 0;
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
-        const double u = incidence.tan2;
         const lrcs_brdf unit = {s > 0 ? 1 : 0, 1, s, brdf[material].m};
         const lrcs_brdf own = {plan->glint == LRCSI_TERM_OMITTED ? 0 : brdf[material].A,
                                plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
+        if (!reflects) { /* a patch at the limb */
+            const lrcsi_unit_response none = {0, 0, 0, 0};
+            const lrcsi_unit_response at = pieces_response(&own, wall, 0, &none);
+            response_sum(to, 1, &at);
+            continue;
+        }
+        lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+        double fraction = visible_fraction(&areas, run, f, &incidence);
+        const double margin = lrcsi_areas_margin(&areas, view, f);
+        fraction += margin != 0 ? margin / incidence.projected : 0;
+        const double u = incidence.tan2;
         double whole = LRCS_FOUR_PI * 0.5 * p->normal[f].length;
         double weight = whole * fraction;
         int corrected = areas.moment && run->corrected[f];

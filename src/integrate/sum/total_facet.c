@@ -60,6 +60,17 @@ static void add_sigma(lrcsi_total_run *run, uint32_t facet, double glint, double
     lrcsi_total_record(run, facet, glint, diffuse);
 }
 
+/* Adds the integrals over what is visible of the true surface at a facet. */
+static void add_wall(lrcsi_total_run *run, uint32_t facet, const lrcsi_wall_terms *wall)
+{
+    double glint = LRCS_FOUR_PI * wall->sum.glint;
+    double diffuse = LRCS_FOUR_PI * wall->sum.diffuse;
+    run->sums.visibility += LRCS_FOUR_PI * wall->visibility;
+    run->sums.rounding += LRCS_FOUR_PI * wall->sum.rounding +
+                          8 * LRCSI_U * (fabs(glint) + fabs(diffuse)) + LRCSI_FACET_UNDERFLOW;
+    add_sigma(run, facet, glint, diffuse);
+}
+
 /* Adds a facet that reflects towards the laser and may be visible:
    1. its incidence and visible area;
    2. with curved normals, the integral over them;
@@ -88,12 +99,7 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
     }
     const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(run->areas, facet);
     if (wall) {
-        double glint = LRCS_FOUR_PI * wall->sum.glint;
-        double diffuse = LRCS_FOUR_PI * wall->sum.diffuse;
-        sums->visibility += LRCS_FOUR_PI * wall->visibility;
-        sums->rounding += LRCS_FOUR_PI * wall->sum.rounding +
-                          8 * LRCSI_U * (fabs(glint) + fabs(diffuse)) + LRCSI_FACET_UNDERFLOW;
-        add_sigma(run, facet, glint, diffuse);
+        add_wall(run, facet, wall);
         return;
     }
     lrcsi_facet_terms terms =
@@ -117,10 +123,18 @@ void lrcsi_total_add_clear(lrcsi_total_run *run, uint32_t facet)
     run->total.hidden += front ? 0 : 1;
 }
 
-/* Adds a facet of any kind, by its exact facing. */
+/* Adds a facet of any kind, by its exact facing. A facet that does not reflect towards the laser
+   may still have the integral over a patch at the limb. */
 void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
+    const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(run->areas, facet);
+    if (!reflects && wall && !lrcsi_total_in_clear_shape(run, facet)) {
+        const lrcs_brdf brdf =
+            lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(run->view->prepared, facet));
+        lrcsi_total_note_terms(&run->sums, &brdf);
+        add_wall(run, facet, wall);
+    }
     int visible =
         run->view->facing[facet] != 0 && lrcsi_areas_is_summed(run->areas, run->view, facet);
     if (reflects && lrcsi_total_in_clear_shape(run, facet)) {
@@ -193,7 +207,7 @@ static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_w
         uint32_t own = run->view->prepared->scene->facet_part[facet];
         run->details.part_error[own] += LRCS_FOUR_PI * wall->sum.remainder;
         divide_error(run, facet, LRCS_FOUR_PI * fmax(wall->above, wall->below),
-                     run->band->whole->parts[facet], 0);
+                     run->band ? run->band->whole->parts[facet] : 0, 0);
     }
 }
 

@@ -212,7 +212,10 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
 }
 
 /* The centroids of two facets are the means of their corners, whose differences are accurate; that
-   of the sector is their mean, weighted by area. */
+   of the sector is their mean, weighted by area. Errors of positions are a fraction of the height
+   of any facet whose moment is known: at points that they move beyond the facet, l - F_i is less
+   than 2 `variation`. The area by which the distance of the centroids is multiplied has an error as
+   well; the product of that distance and the gradient is at most `variation`. */
 lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t facet,
                                              const lrcsi_patch *patch,
                                              const lrcsi_visible_area *visible,
@@ -220,7 +223,8 @@ lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t fa
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t other = lrcsi_patch_partner(p, facet);
-    lrcsi_linear_moment m = {{moment->first[0], moment->first[1]}, 1.5 * moment->error, 1};
+    lrcsi_linear_moment m = {
+        {moment->first[0], moment->first[1]}, 1.5 * moment->error, 2 * moment->area_err, 1};
     if (patch->at.facets != 2 || p->skip[other]) {
         return m;
     }
@@ -234,12 +238,11 @@ lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t fa
             apart[k] += (to[k] - from[k]) / 3;
         }
     }
-    double area_err = lrcsi_max(visible->high - visible->area, visible->area - visible->low);
+    m.area_err += lrcsi_max(visible->high - visible->area, visible->area - visible->low);
     for (int k = 0; k < 2; k++) {
         const double *row = view->R[k];
         double centre = weight * (row[0] * apart[0] + row[1] * apart[1] + row[2] * apart[2]);
         m.first[k] -= visible->area * centre;
-        m.error += fabs(centre) * area_err;
     }
     m.ratio = sum / p->normal[facet].length * LRCSI_OUTWARD(4);
     return m;

@@ -32,7 +32,9 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
 /* What is visible of a facet, about the centroid of the facets that share its patch. */
 typedef struct lrcsi_linear_moment {
     double first[2]; /* the integral of x - c over its projection */
-    double error;    /* bound on the length of its error, except for rounding (lrcsi_linear) */
+    double error;    /* bound on the length of its error, except for rounding (lrcsi_linear) and: */
+    double area_err; /* bound on the area of the facets that it includes although it is not visible,
+                        or the reverse */
     double ratio;    /* the area of those facets divided by this one's, an upper bound */
 } lrcsi_linear_moment;
 

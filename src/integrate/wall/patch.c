@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The mean of F = f_r cos^2 over the patch of a facet: how the patch is divided into pieces, and
    what counts as an error. F, its bounds and the rules: integrate/wall/patch_frame.h. Whether the
-   patch is visible is decided elsewhere (integrate/wall/tessellation.c, open_sectors.c).
+   patch is visible is decided elsewhere (integrate/wall/tessellation.c, clear_sectors.c).
 
    Pieces. The patch is halved in both variables, and its halves again, where the remainder of the
    rules would be too large, or where it is nearly edge-on to the laser.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Evaluates what the header states. It does not decide where nothing else is in front of the
-   inside (integrate/wall/open_sectors.c).
+   inside (integrate/wall/clear_sectors.c).
 
    Rounding. In the shape's frame d has an error of at most e = LRCSI_PATCH_NORMAL_ERR, and no
    component of it exceeds 1 by more. Each coefficient of E then has an error of at most 4 e times

@@ -34,7 +34,7 @@
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
    whose hidden facets are masked; derivatives: 1 if the integrals are to include what derivatives
    need; terms[facet_count] of the sectors that are integrated over their patches
-   (integrate/wall/open_sectors.h): these are left out. Returned: the terms of the others. Without
+   (integrate/wall/clear_sectors.h): these are left out. Returned: the terms of the others. Without
    enough memory, or if steps run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,

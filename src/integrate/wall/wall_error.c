@@ -198,8 +198,9 @@ typedef struct patch_correction {
 } patch_correction;
 
 /* The integral of l - F_i over what is visible of a facet, in the view plane, divided by its
-   projected area. An error of the moment is multiplied by the slope; rounding is part of
-   linear->rounding, except for the projected area. Returns 0 if the moment is not known. */
+   projected area. An error of the moment is multiplied by the slope, and one of the area by the
+   variation; rounding is part of linear->rounding, except for the projected area. Returns 0 if the
+   moment is not known. */
 static int correction_make(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at,
                            uint32_t facet, const lrcsi_linear *linear, patch_correction *correction)
 {
@@ -212,7 +213,8 @@ static int correction_make(const lrcsi_tessellation_input *in, const lrcsi_wall_
     correction->ratio = m.ratio;
     correction->glint = linear->glint[0] * x + linear->glint[1] * y;
     correction->diffuse = linear->diffuse[0] * x + linear->diffuse[1] * y;
-    correction->error = linear->slope * m.error / (incidence.projected * (1 - incidence.error)) +
+    correction->error = (linear->slope * m.error + linear->variation * m.area_err) /
+                            (incidence.projected * (1 - incidence.error)) +
                         linear->variation * incidence.error;
     return isfinite(correction->glint + correction->diffuse + correction->error);
 }

@@ -15,7 +15,7 @@ typedef struct lrcsi_round_sum {
 enum lrcsi_wall_way {
     LRCSI_WALL_FACET,  /* as a facet: the other fields are not used */
     LRCSI_WALL_PIECES, /* its visible pieces (integrate/wall/round_pieces.h) */
-    LRCSI_WALL_PATCH   /* the visible part of its sector's patch (integrate/wall/open_sectors.h) */
+    LRCSI_WALL_PATCH   /* the visible part of its sector's patch (integrate/wall/clear_sectors.h) */
 };
 
 /* T and M: integrate/wall/round_pieces.h. */

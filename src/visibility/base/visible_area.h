@@ -45,10 +45,14 @@ static inline lrcsi_visible_area lrcsi_visible_area_proved(const lrcsi_view *vie
 }
 
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the
-   facet's centroid in the view plane. 0 for a facet that is entirely visible or hidden. */
+   facet's centroid in the view plane. 0 for a facet that is entirely visible or hidden. It is the
+   moment of a region that differs from the visible one by a small area anywhere on the facet, up to
+   errors of positions. */
 typedef struct lrcsi_moment {
     double first[2];
-    double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
+    double area_err; /* bound on that area */
+    double error;    /* bound on the error of either component, except for that of this area;
+                        HUGE_VAL: the moment is not known */
 } lrcsi_moment;
 
 #endif

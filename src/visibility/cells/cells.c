@@ -405,23 +405,17 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
     return of_facet + (ordinary ? of_scene : 0);
 }
 
-/* Finishes the moment of a facet whose area is reported. What was added differs from the visible
-   region by at most `err`, an area, and the rounding error of an area, times the distance `reach`
-   from the centroid, bounds that of a moment (lrcsi_clip_add_moment). What was not added is no
-   farther from the centroid than the largest difference of coordinates. If the facet is not partly
-   visible, only what may be hidden, or visible, moves the moment from 0. */
-static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, double reach,
-                          uint32_t facet, int partly, double err)
+/* Finishes the moment of a facet whose area is reported. What was added, of area `sum`, differs
+   from the visible region by at most `err`, an area, which includes the rounding errors of areas;
+   those of distances from the centroid, at most `reach`, are below 64 u of it. If the facet is not
+   partly visible, only what may be hidden, or visible, moves the moment from 0. */
+static void moment_report(lrcsi_moment *moment, double reach, double sum, int partly, double err)
 {
-    double low[3];
-    double high[3];
-    lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
-    const double size = lrcsi_max(high[0] - low[0], high[1] - low[1]) * LRCSI_OUTWARD(4);
-    if (partly) {
-        moment->error += lrcsi_max(reach, size) * err;
-    } else {
-        *moment = (lrcsi_moment){.error = err * size};
+    if (!partly) {
+        *moment = (lrcsi_moment){.error = 0};
     }
+    moment->area_err = err;
+    moment->error += partly ? 64 * LRCSI_U * sum * reach : 0;
 }
 
 /* Reports the areas that are accurate enough and not found yet. Returns the number of facets that
@@ -451,7 +445,7 @@ static uint32_t areas_report(cells_job *job, int as_single, unsigned char *found
                                               lrcsi_min(whole, area + err), 0, 0};
             found[f] = 1;
             if (job->moment) {
-                moment_report(view, &job->moment[f], job->reach[f], f, some_visible && some_hidden,
+                moment_report(&job->moment[f], job->reach[f], sum, some_visible && some_hidden,
                               err);
             }
         } else {

@@ -218,23 +218,22 @@ int lrcsi_facet_cells_next(lrcsi_facet_cells *cells)
     return 0;
 }
 
-/* The pieces differ from the visible region by at most `err`, an area, all that is undecided, and
-   the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
-   All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
-   its moment is 0. */
-static void moment_close(lrcsi_facet_cells *cells, double err)
+/* The pieces, of area `sum`, differ from the visible region by at most `err`, an area, which
+   includes the rounding errors of areas, all that is undecided, and the error of their corners and
+   of the centroid, 10 u of the target's reach, along the perimeter. The rounding errors of
+   distances from the centroid are below 64 u of `reach`, and its error moves the moment by that
+   times the area. If all of the facet is visible, its moment is 0. */
+static void moment_close(lrcsi_facet_cells *cells, double sum, double err)
 {
     const lrcsi_target *t = &cells->target;
     double undecided = (cells->perhaps_hidden + cells->perhaps_visible) * LRCSI_OUTWARD_MICRO;
-    double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
-    double reach = lrcsi_max(cells->reach, t->diameter);
     if (cells->frame.needle) {
         cells->moment.error = HUGE_VAL;
-    } else if (cells->hidden || undecided > 0) {
-        cells->moment.error += reach * differs;
-    } else {
-        cells->moment = (lrcsi_moment){.error = reach * differs};
+    } else if (!(cells->hidden || undecided > 0)) {
+        cells->moment = (lrcsi_moment){.error = 0};
     }
+    cells->moment.area_err = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
+    cells->moment.error += 64 * LRCSI_U * sum * (lrcsi_max(cells->reach, t->diameter) + t->reach);
 }
 
 lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
@@ -250,7 +249,7 @@ lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *cells)
     err *= unit * LRCSI_OUTWARD_MICRO;
     double visible = cells->hidden || perhaps_hidden > 0 ? lrcsi_min(whole, unit * sum) : whole;
     err += cells->frame.needle ? incidence.error * whole : 0;
-    moment_close(cells, err);
+    moment_close(cells, unit * sum, err);
     return (lrcsi_visible_area){visible, lrcsi_max(0, visible - unit * perhaps_visible - err),
                                 lrcsi_min(whole, visible + unit * perhaps_hidden + err), 0, 0};
 }

@@ -198,9 +198,13 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
         lrcsi_event_band fractions;
         if (band->gain[facet] >= 1 && band->loss[facet] >= 1 &&
             lrcsi_part_set_without(band->parts[facet], own) != 0) {
-            /* the other edges are not considered; but those of its own part alone tell that no
-               other part's matter (integrate/wall/open_sectors.h) */
-            band->parts[facet] = LRCSI_PART_SET_ALL;
+            /* the other edges add nothing to the fractions, only their parts to the set; those of
+               its own part alone tell that no other part's matter (clear_sectors.h of
+               integrate/wall) */
+            for (uint32_t k = i; k < count; k++) {
+                band->parts[facet] |= lrcsi_part_set_of(job->bands.events.part[job->listed[k]]);
+            }
+            margin->gain = margin->loss = 1;
             return;
         }
         if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {

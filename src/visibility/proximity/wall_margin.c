@@ -79,7 +79,7 @@
 #include "visibility/uniform/query.h"
 
 /* An edge whose margin meets more facets is not used: heuristic. */
-#define MARGIN_FACETS_MAX 8192u
+#define MARGIN_FACETS_MAX (UINT32_C(1) << 17)
 /* Nor one that may be near a facet with more pairs than this: a large facet that others intersect
    may have as many as these have facets. */
 #define MARGIN_PAIRS_MAX 64u
@@ -277,23 +277,27 @@ static double margin_facet_slack(const lrcsi_edge_margin *m, double lateral)
     return m->outline->k + LRCSI_ROOT_2_OUTWARD * lateral + m->err;
 }
 
-/* Makes the plane for (b): parallel to the edge and, across it, to the view plane; as high, along
-   the direction to the laser, as it can be with all of Q on or above it. */
-static lrcsi_wall_plane plane_below(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+/* The planes for (b) are parallel to the edge. Across it, the first one is parallel to the view
+   plane; the others fall away from the laser behind the edge, by the inverse of these slopes: where
+   P begins at Q, or near it, only a plane along the side of Q that faces away leaves P behind Q. */
+static const double plane_slopes[LRCSI_WALL_PLANES] = {0, 1, 8, 64, 512, 4096};
+
+/* Makes such a plane, as high, along the direction to the laser, as it can be with all of Q on or
+   above it. */
+static lrcsi_wall_plane plane_below(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                                    double across)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcsi_body *body = job->bands->orders.body;
-    lrcsi_wall_plane plane = {.known = body != NULL};
-    if (!plane.known) {
-        return plane;
-    }
+    lrcsi_wall_plane plane;
     const double slope = (m->b[2] - m->a[2]) / m->length;
     const double norm = sqrt(1 + slope * slope);
+    const double size = sqrt(1 + across * across);
     const double *corner = view->prepared->vertex[m->edge->low].x;
     double down[3];
-    plane.up[0] = -slope * m->along[0] / norm;
-    plane.up[1] = -slope * m->along[1] / norm;
-    plane.up[2] = 1 / norm;
+    plane.up[0] = (-slope * m->along[0] / norm - across * m->outward[0]) / size;
+    plane.up[1] = (-slope * m->along[1] / norm - across * m->outward[1]) / size;
+    plane.up[2] = 1 / (norm * size);
     for (int k = 0; k < 3; k++) {
         down[k] = -(plane.up[0] * view->R[0][k] + plane.up[1] * view->R[1][k] +
                     plane.up[2] * view->R[2][k]);
@@ -305,16 +309,28 @@ static lrcsi_wall_plane plane_below(const lrcsi_wall_margins *job, const lrcsi_e
     return plane;
 }
 
-/* Is a slice of a facet, and the true wall there, below this plane? */
-static int slice_is_below(const lrcsi_wall_margins *job, uint32_t facet, const lrcsi_slice *slice)
+/* Planes that lie so nearly along the direction to the laser that rounding may decide on which side
+   of them that is are not used: their `up` has a component of this size along it, or less. */
+#define PLANE_UP_MIN 0x1p-40
+
+/* Is a slice of a facet, and the true wall there, below one of the planes? */
+static int slice_is_below(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet,
+                          const lrcsi_slice *slice)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
-    const double slack = job->plane.err + p->proximity.reach[p->scene->facet_part[facet]] +
-                         4 * lrcsi_edge_rectangle_facet_err(view, facet);
-    int below = job->plane.known;
-    for (int i = 0; i < slice->count; i++) {
-        below = below && lrcsi_vec3_dot(job->plane.up, slice->x[i]) < job->plane.level - slack;
+    int below = 0;
+    for (int k = 0; k < LRCSI_WALL_PLANES && job->bands->orders.body && !below; k++) {
+        const lrcsi_wall_plane *plane = &job->plane[k];
+        if (k == job->plane_count) {
+            job->plane[job->plane_count++] = plane_below(job, m, plane_slopes[k]);
+        }
+        const double slack = plane->err + p->proximity.reach[p->scene->facet_part[facet]] +
+                             4 * lrcsi_edge_rectangle_facet_err(view, facet);
+        below = plane->up[2] > PLANE_UP_MIN;
+        for (int i = 0; i < slice->count; i++) {
+            below = below && lrcsi_vec3_dot(plane->up, slice->x[i]) < plane->level - slack;
+        }
     }
     return below;
 }
@@ -345,7 +361,7 @@ static void margin_facet_make(lrcsi_wall_margins *job, const lrcsi_edge_margin *
     if (!separated) {
         const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, facet, m->edge, m->width);
         const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
-        if (!applies || !slice_is_below(job, facet, &slice)) {
+        if (!applies || !slice_is_below(job, m, facet, &slice)) {
             lrcsi_edge_gaps_add(gaps, part_near(m, &box, &slice, m->width));
             return;
         }
@@ -416,20 +432,60 @@ static void margin_facets_find(lrcsi_wall_margins *job, const lrcsi_edge_margin 
     }
 }
 
+/* A number that grows with the position t on the edge, and is the same beyond its ends. */
+static uint32_t margin_key(const lrcsi_edge_margin *m, double t)
+{
+    const double fraction = lrcsi_min(1, lrcsi_max(0, t / m->length));
+    return (uint32_t)(fraction * 0x1p31);
+}
+
+/* Sorts the usable facets by where they begin to be near the edge. Returns their number. */
+static uint32_t margin_facets_sort(lrcsi_wall_margins *job, const lrcsi_edge_margin *m)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->facet_count; i++) {
+        const lrcsi_margin_facet *one = &job->facet[i];
+        if (one->usable && one->near[0] <= one->near[1]) {
+            job->order[count++] = (lrcsi_sort_item){margin_key(m, one->near[0]), i};
+        }
+    }
+    lrcsi_sort_items(job->order, count);
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < count; i++) {
+        most = lrcsi_max(most, job->facet[job->order[i].value].near[1]);
+        job->near_most[i] = most;
+    }
+    return count;
+}
+
+/* How many of the sorted facets may begin to be near the edge at t or before? */
+static uint32_t margin_facets_before(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                                     uint32_t count, double t)
+{
+    const uint32_t key = margin_key(m, t);
+    uint32_t low = 0;
+    for (uint32_t high = count; low < high;) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (job->order[middle].key <= key) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 /* Finds on which other facets the margin that is attributed to a facet may lie: how far away these
    are, and how much more of their area a part of the view plane stands for. Adds a gap where that
    is too much. */
-static void margin_facets_compare(const lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+static void margin_facets_compare(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                                   lrcsi_edge_gaps *gaps)
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_scene *scene = view->prepared->scene;
     const uint32_t part = scene->facet_part[job->facet[0].facet];
     const uint32_t around = scene->part[part].divisions.around;
-    if (!lrcsi_meter_take(job->bands->meter, (uint64_t)job->facet_count * job->facet_count / 16)) {
-        lrcsi_edge_gaps_add(gaps, everywhere);
-        return;
-    }
+    const uint32_t count = margin_facets_sort(job, m);
     for (uint32_t i = 0; i < job->facet_count; i++) {
         lrcsi_margin_facet *one = &job->facet[i];
         if (!one->usable || lrcsi_segment_part_is_empty(one->outer)) {
@@ -438,11 +494,16 @@ static void margin_facets_compare(const lrcsi_wall_margins *job, const lrcsi_edg
         const double own = lrcsi_view_incidence(view, one->facet).cos_theta;
         const double from = one->outer.from * m->length - m->err;
         const double to = one->outer.to * m->length + m->err;
-        for (uint32_t k = 0; k < job->facet_count; k++) {
-            const lrcsi_margin_facet *other = &job->facet[k];
+        uint32_t at = margin_facets_before(job, m, count, to);
+        while (at > 0 && job->near_most[at - 1] >= from) {
+            const lrcsi_margin_facet *other = &job->facet[job->order[--at].value];
             const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
-            if (k == i || !other->usable || !(length >= 0)) {
+            if (other == one || !(length >= 0)) {
                 continue;
+            }
+            if (!lrcsi_meter_take(job->bands->meter, 1)) {
+                lrcsi_edge_gaps_add(gaps, everywhere);
+                return;
             }
             const double cosine = lrcsi_view_incidence(view, other->facet).cos_theta;
             const double cos_ratio_err =
@@ -659,7 +720,7 @@ static lrcsi_segment_part event_examine(lrcsi_wall_margins *job, uint32_t facet,
     if (!wall_edge_make(job, event, part, &m)) {
         return unknown_part;
     }
-    job->plane = plane_below(job, &m);
+    job->plane_count = 0;
     margin_facets_find(job, &m, facet, &gaps);
     if (!lrcsi_edge_gaps_are_all(&gaps)) {
         margin_facets_compare(job, &m, &gaps);
@@ -727,6 +788,8 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_bytes(lrcsi_proximity_events_most(p), sizeof(lrcsi_wall_event));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_margin_facet)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(lrcsi_sort_item)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(double)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
@@ -738,20 +801,22 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
                             lrcs_work *work, lrcsi_wall_margin *margin, lrcsi_wall_margins *job)
 {
     const uint32_t facets = bands->view->prepared->scene->facet_count;
+    const uint32_t most = margin_facets_most(bands->view->prepared);
     const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
     *job = (lrcsi_wall_margins){
         .bands = bands, .classification = classification, .work = work, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
-    job->facet =
-        lrcsi_work_take(work, margin_facets_most(bands->view->prepared), sizeof *job->facet);
+    job->facet = lrcsi_work_take(work, most, sizeof *job->facet);
+    job->order = lrcsi_work_take(work, most, sizeof *job->order);
+    job->near_most = lrcsi_work_take(work, most, sizeof *job->near_most);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
     job->unproved = lrcsi_work_take_zero(work, facets, sizeof *job->unproved);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
-    if (!job->event || !job->facet || !job->reached.entry || !job->reader || !job->pairs ||
-        !job->unproved || !job->first_pair || !job->next_pair) {
+    if (!job->event || !job->facet || !job->order || !job->near_most || !job->reached.entry ||
+        !job->reader || !job->pairs || !job->unproved || !job->first_pair || !job->next_pair) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {

@@ -5,6 +5,7 @@
 #ifndef LRCSI_WALL_MARGIN_H
 #define LRCSI_WALL_MARGIN_H
 
+#include "base/sort.h"
 #include "visibility/index/marks.h"
 #include "visibility/proximity/edge_margin.h"
 #include "visibility/uniform/classify.h"
@@ -34,10 +35,11 @@ typedef struct lrcsi_wall_unproved {
 
 /* A plane, in view coordinates, below which points are behind all of a part. */
 typedef struct lrcsi_wall_plane {
-    int known;
     double up[3], level; /* unit vector; its product with the plane's points */
     double err;          /* bound on the error of `level` and of products with view coordinates */
 } lrcsi_wall_plane;
+
+enum { LRCSI_WALL_PLANES = 6 };
 
 /* A facet that the margin of an edge meets. */
 typedef struct lrcsi_margin_facet lrcsi_margin_facet;
@@ -54,8 +56,12 @@ typedef struct lrcsi_wall_margins {
     lrcsi_wall_margin *margin;        /* facet: to be filled */
     lrcsi_wall_event *event;          /* event */
     lrcsi_margin_facet *facet;        /* those of the edge under examination */
+    lrcsi_sort_item *order;           /* the same, by where they begin to be near the edge */
+    double *near_most;                /* the farthest that these and those before are near it */
     lrcsi_outline outline;            /* of the edge under examination; its k is at least delta */
-    lrcsi_wall_plane plane;           /* below the part of this edge */
+    lrcsi_wall_plane plane[LRCSI_WALL_PLANES]; /* below the part of this edge */
+    int plane_count;                           /* so many of them are made: the others when they are
+                                                  needed */
     uint32_t facet_count;
     lrcsi_marks reached;   /* facets: those of the edge under examination */
     unsigned char *reader; /* facet: whether queries may be made at it */
