@@ -402,6 +402,7 @@ static void ellipsoids_alone_and_over_a_plate(void **state)
         }
         double truth = ellipsoid_truth(&glossy, half, d);
         check_truth(&s, d, truth, 1e-10 * truth, i == 1 ? 1.5 : 0);
+        check_most(shadow_run(&s, 200, d, LRCS_METHOD_FACET).bound_m2, 1e-6 * truth);
         add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {12, 12}}, 0, 0, 0);
         double shadow = PI * half[0] * half[1] * half[2] * sqrt(round) / cos(theta);
         truth += lambertian(&glossy, theta) * (144 - shadow);

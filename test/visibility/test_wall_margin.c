@@ -249,6 +249,27 @@ static void margins_of_a_ball_in_front_of_a_wall_have_their_sign(void **state)
     }
 }
 
+/* A ball that pierces the wall inside its own outline, behind which a plane along its far side
+   separates it from the wall. */
+static void margins_of_a_ball_that_pierces_a_wall(void **state)
+{
+    (void)state;
+    static const double from[2][3] = {{1, 0.02, 0.1}, {1, 0.1, -0.2}};
+    for (int i = 0; i < 4; i++) {
+        const double *d = from[i / 2];
+        lrcs_recipe_part part[2] = {part_at(cylinder, 0, 0, 0), ball_at(0.3, 1.1, 0, 1.5)};
+        find_margins(part, 2, i % 2 ? 1e-3 : 1e-4, d);
+        const wall_sums sum = sum_of_wall();
+        const double want = more_visible(&cylinder, part[BALL].place.translate, 0.3, d);
+        assert_true(sum.facets > 4);
+        check_abs(sum.area, want, sum.loose + sum.gain + sum.loss);
+        if (i % 2 == 0) { /* finer facets: nearly all of the outline has margins */
+            check_abs(sum.area, want, 0.01 * fabs(want));
+            check_most(sum.gain + sum.loss, 0.001 * (sum.all_gain + sum.all_loss));
+        }
+    }
+}
+
 /* A tank with its flat base, which stands before the middle of a wall or on the same plane, seen
    exactly edge-on to the base: its outline is a half circle, and all of it has margins but for
    edges at its corners. */
@@ -310,8 +331,8 @@ static void edges_across_the_limb_have_bands(void **state)
     }
 }
 
-/* (c): a second ball whose outline crosses that of the first one; (b): a ball that meets the wall.
- */
+/* (c): a second ball whose outline crosses that of the first one; (b): a ball whose outline is behind
+   the wall. */
 static void no_margin_is_known_without_the_conditions(void **state)
 {
     (void)state;
@@ -484,6 +505,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(margins_of_a_ball_in_front_of_a_wall_have_their_sign),
+        cmocka_unit_test(margins_of_a_ball_that_pierces_a_wall),
         cmocka_unit_test(margins_of_a_tank_seen_edge_on_to_its_base),
         cmocka_unit_test(two_sided_walls_have_the_same_margins),
         cmocka_unit_test(edges_across_the_limb_have_bands),
