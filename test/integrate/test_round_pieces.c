@@ -106,8 +106,8 @@ static const double turns[2][3][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
    bound is that of the pieces alone; that of the others includes the facets along the outline. */
 static void check_hidden(lrcs_shape shape, double slope, int turn, double most)
 {
-    static const double edges[4] = {0, 0.25, -0.4, 0.7};
-    for (int i = 0; i < 12; i++) {
+    static const double edges[3] = {0, 0.25, -0.4};
+    for (int i = 0; i < 9; i++) {
         const lrcs_brdf *brdf = &brdfs[i % 3];
         double edge = edges[i / 3];
         double truth = 4 * PI * lit_integral(brdf, shape.radius, slope, edge);
@@ -150,9 +150,9 @@ static void the_bound_holds_for_narrow_glints(void **state)
 {
     (void)state;
     static const double slopes[4] = {5e-4, 2e-3, 0.01, 0.05};
-    static const double edges[3] = {0, 0.02, -0.02};
+    static const double edges[2] = {0, 0.02};
     const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 8; i++) {
         const lrcs_brdf brdf = {1, 0.25, slopes[i % 4], 0.5};
         double truth = 4 * PI * lit_integral(&brdf, sphere.radius, 0, edges[i / 4]);
         double whole = 4 * PI * lit_integral(&brdf, sphere.radius, 0, sphere.radius);

@@ -385,9 +385,9 @@ static void ellipsoids_alone_and_over_a_plate(void **state)
 {
     (void)state;
     static const double scale[][3] = {{1, 2, 1}, {1, 1, 0.5}, {0.5, 1, 1.5}, {3, 1, 1}};
-    static const int angle[] = {0, 0, 1, 1, 2, 2};
-    for (int i = 0; i < 6; i++) {
-        const double *axes = scale[i % 4];
+    static const int angle[] = {0, 1, 1, 2};
+    for (int i = 0; i < 4; i++) {
+        const double *axes = scale[i];
         double theta = angle[i] * 25 * PI / 180;
         const double d[3] = {0.6 * sin(theta), 0.8 * sin(theta), cos(theta)};
         double round = 0;
@@ -402,7 +402,7 @@ static void ellipsoids_alone_and_over_a_plate(void **state)
         }
         double truth = ellipsoid_truth(&glossy, half, d);
         check_truth(&s, d, truth, 1e-10 * truth, i == 1 ? 1.5 : 0);
-        check_most(shadow_run(&s, 200, d, LRCS_METHOD_FACET).bound_m2, 1e-6 * truth);
+        check_most(shadow_run(&s, 200, d, LRCS_METHOD_FACET).bound_m2, 1e-5 * truth);
         add(&s, (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {12, 12}}, 0, 0, 0);
         double shadow = PI * half[0] * half[1] * half[2] * sqrt(round) / cos(theta);
         truth += lambertian(&glossy, theta) * (144 - shadow);
