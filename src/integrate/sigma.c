@@ -52,15 +52,6 @@ static int moments_wanted(const lrcs_prepared *prepared)
     return prepared->proximity.reach && !prepared->has_curved_normals;
 }
 
-/* Are integrals over sectors of curved walls wanted? Of a convex part that is alone, also without
-   moments. */
-static int wall_terms_wanted(const lrcs_prepared *prepared)
-{
-    return moments_wanted(prepared) ||
-           (prepared->convex && prepared->scene->part_count == 1 && prepared->has_curved_shapes &&
-            !prepared->has_curved_normals);
-}
-
 /* 1. Results by facet: areas, moments, integrals over curved normals;
    2. the view, clear shapes, the classification, the proximity band;
    3. visible areas: by clipping, or by a raster, after which facets with curved normals that are
@@ -75,16 +66,18 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
                              ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curve_terms)),
                                               lrcsi_cubature_need())
                              : 0;
-    size_t wall_terms =
-        wall_terms_wanted(prepared) ? lrcsi_work_bytes(facets, sizeof(lrcsi_wall_terms)) : 0;
+    size_t wall_terms = lrcsi_work_bytes(facets, sizeof(lrcsi_wall_terms));
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
-        errors = lrcsi_work_add(errors, prepared->convex ? wall_terms : 0);
-        return lrcsi_work_add(lrcsi_work_add(lrcsi_view_face_need(prepared), errors),
-                              prepared->has_curved_normals ? lrcsi_work_add(areas, curve_terms)
-                                                           : 0);
+        size_t face = lrcsi_work_add(lrcsi_view_face_need(prepared), errors);
+        face = lrcsi_work_add(face, lrcsi_sigma_is_one_convex_shape(prepared) ? wall_terms : 0);
+        return lrcsi_work_add(
+            face, prepared->has_curved_normals ? lrcsi_work_add(areas, curve_terms) : 0);
     }
     size_t need = lrcsi_work_add(lrcsi_work_add(lrcsi_view_need(prepared), errors),
-                                 lrcsi_work_add(lrcsi_work_add(areas, curve_terms), wall_terms));
+                                 lrcsi_work_add(areas, curve_terms));
+    if (moments_wanted(prepared) || lrcsi_sigma_is_one_convex_shape(prepared)) {
+        need = lrcsi_work_add(need, wall_terms);
+    }
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
     }
@@ -133,8 +126,8 @@ static int run_allocate(lrcsi_sigma *run)
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
     memory->moment = moments ? lrcsi_work_take(run->work, facets, sizeof *memory->moment) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    int wall_terms = wall_terms_wanted(p) && run->plan.method != LRCS_METHOD_CLOSED &&
-                     (moments || run->plan.fronts_visible);
+    int wall_terms =
+        moments || (lrcsi_sigma_is_one_convex_shape(p) && run->plan.method != LRCS_METHOD_CLOSED);
     memory->wall_terms =
         wall_terms ? lrcsi_work_take(run->work, facets, sizeof *memory->wall_terms) : NULL;
     int faces = !run_is_unshadowed(run) && p->proximity.reach != NULL;

@@ -41,7 +41,7 @@ typedef struct lrcsi_sigma_request {
 typedef struct lrcsi_sigma_memory {
     lrcsi_visible_area *visible;  /* [facet_count]; NULL: the plan implies all areas */
     lrcsi_moment *moment;         /* [facet_count]; NULL: moments are not wanted */
-    lrcsi_wall_terms *wall_terms; /* [facet_count]; NULL: pieces are not wanted */
+    lrcsi_wall_terms *wall_terms; /* [facet_count]; NULL: no integrals over walls are wanted */
     lrcsi_flat_face *face;        /* [faces]; NULL: no margins on flat faces are wanted */
 } lrcsi_sigma_memory;
 
@@ -156,6 +156,14 @@ uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run);
 
 /* The options of integrals over curved normals; steps are taken from the given meter. */
 lrcsi_curve_options lrcsi_sigma_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter);
+
+/* Is the scene one convex curved shape? Nothing hides its outside then, and integrals over its
+   sectors at the limb need no moments. */
+static inline int lrcsi_sigma_is_one_convex_shape(const lrcs_prepared *prepared)
+{
+    return prepared->convex && prepared->scene->part_count == 1 && prepared->has_curved_shapes &&
+           !prepared->has_curved_normals;
+}
 
 /* Are there proofs about the visible areas of the pose that the methods do not use? */
 int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);

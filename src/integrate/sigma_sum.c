@@ -66,8 +66,7 @@ lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 /* Integrates over the sectors at the limb of a convex part that is alone: nothing hides any. */
 static void limbs_integrate(lrcsi_sigma *run)
 {
-    if (run->plan.fronts_visible && run->view.prepared->scene->part_count == 1 &&
-        run->memory.wall_terms) {
+    if (lrcsi_sigma_is_one_convex_shape(run->view.prepared) && run->memory.wall_terms) {
         lrcsi_clear_sectors_make(&run->view, &run->plan, NULL, NULL, run->request.derivatives,
                                  run->work, run->memory.wall_terms);
         run->areas.wall_terms = run->memory.wall_terms;

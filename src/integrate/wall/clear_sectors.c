@@ -3,8 +3,6 @@
    The integral over a patch: integrate/wall/patch.h. */
 #include "integrate/wall/clear_sectors.h"
 
-#include <string.h>
-
 #include "base/work.h"
 #include "integrate/wall/patch.h"
 #include "scene/proximity.h"
@@ -123,26 +121,39 @@ static void sector_make(const sectors_job *job, const lrcsi_rim_shadow *shadow, 
     }
 }
 
-/* Finds the facets that meet no band of another part. Returns 0 if there are none. */
-static int find_alone(const sectors_job *job)
+/* Finds the facets that meet no band of another part, their groups, and the groups of which
+   something is visible. Returns 0 if there are none, or no memory. */
+static int find_groups(sectors_job *job, lrcs_work *work)
 {
-    const lrcs_scene *scene = job->view->prepared->scene;
+    const uint32_t facets = job->view->prepared->scene->facet_count;
     int any = 0;
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
+    job->alone = lrcsi_work_take(work, facets, 1);
+    job->group = lrcsi_work_take(work, facets, sizeof *job->group);
+    job->seen = lrcsi_work_take_zero(work, facets, 1);
+    if (!job->alone || !job->group || !job->seen) {
+        return 0;
+    }
+    for (uint32_t f = 0; f < facets; f++) {
         job->alone[f] = (unsigned char)is_alone(job, f);
         any |= job->alone[f];
+    }
+    if (any) {
+        lrcsi_proximity_band_join(job->band->whole, job->alone, 0, job->group);
+    }
+    for (uint32_t f = 0; f < facets && any; f++) {
+        job->seen[job->group[f]] |= job->alone[f] && job->visible[f].low > 0;
     }
     return any;
 }
 
-/* Finds their groups, and those of which something is visible. */
-static void find_groups(const sectors_job *job)
+/* Makes the terms of all sectors of a part. */
+static void part_make(const sectors_job *job, const lrcs_part *part, lrcsi_wall_terms *terms)
 {
-    const uint32_t facets = job->view->prepared->scene->facet_count;
-    lrcsi_proximity_band_join(job->band->whole, job->alone, 0, job->group);
-    memset(job->seen, 0, facets);
-    for (uint32_t f = 0; f < facets; f++) {
-        job->seen[job->group[f]] |= job->alone[f] && job->visible[f].low > 0;
+    const lrcsi_rim_shadow shadow = lrcsi_rim_shadow_make(part, job->view->unit);
+    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
+        if (terms[f].way == LRCSI_WALL_FACET && is_clear(job, f) && is_candidate(job, f)) {
+            sector_make(job, &shadow, f, terms);
+        }
     }
 }
 
@@ -151,35 +162,15 @@ void lrcsi_clear_sectors_make(const lrcsi_view *view, const lrcsi_plan *plan,
                               int derivatives, lrcs_work *work, lrcsi_wall_terms *terms)
 {
     const lrcs_scene *scene = view->prepared->scene;
-    const uint32_t facets = scene->facet_count;
     const size_t mark = work->used;
     sectors_job job = {
         .view = view, .plan = plan, .band = band, .visible = visible, .derivatives = derivatives};
-    int any = plan->patches;
-    if (band && any) {
-        job.alone = lrcsi_work_take(work, facets, 1);
-        job.group = lrcsi_work_take(work, facets, sizeof *job.group);
-        job.seen = lrcsi_work_take(work, facets, 1);
-        any = job.alone && job.group && job.seen && find_alone(&job);
-    }
-    for (uint32_t f = 0; f < facets; f++) {
+    const int any = plan->patches && (!band || find_groups(&job, work));
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
         terms[f].way = LRCSI_WALL_FACET;
     }
-    if (any) {
-        if (band) {
-            find_groups(&job);
-        }
-        for (uint32_t i = 0; i < scene->part_count; i++) {
-            const lrcs_part *part = &scene->part[i];
-            const uint32_t end = part->first_facet + part->facet_count;
-            const lrcsi_rim_shadow shadow = lrcsi_rim_shadow_make(part, view->unit);
-            for (uint32_t f = part->first_facet; f < end; f++) {
-                if (terms[f].way == LRCSI_WALL_FACET && is_clear(&job, f) &&
-                    is_candidate(&job, f)) {
-                    sector_make(&job, &shadow, f, terms);
-                }
-            }
-        }
+    for (uint32_t i = 0; i < scene->part_count && any; i++) {
+        part_make(&job, &scene->part[i], terms);
     }
     work->used = mark;
 }

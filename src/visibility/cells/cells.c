@@ -411,11 +411,12 @@ static double facet_accuracy(const lrcsi_blocks *b, uint32_t facet, double proje
    partly visible, only what may be hidden, or visible, moves the moment from 0. */
 static void moment_report(lrcsi_moment *moment, double reach, double sum, int partly, double err)
 {
-    if (!partly) {
+    if (partly) {
+        moment->error += 64 * LRCSI_U * sum * reach;
+    } else {
         *moment = (lrcsi_moment){.error = 0};
     }
     moment->area_err = err;
-    moment->error += partly ? 64 * LRCSI_U * sum * reach : 0;
 }
 
 /* Reports the areas that are accurate enough and not found yet. Returns the number of facets that

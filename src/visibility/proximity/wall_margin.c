@@ -319,14 +319,15 @@ static int slice_is_below(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, u
 {
     const lrcsi_view *view = job->bands->view;
     const lrcs_prepared *p = view->prepared;
+    const double reach = p->proximity.reach[p->scene->facet_part[facet]];
+    const double facet_err = lrcsi_edge_rectangle_facet_err(view, facet);
     int below = 0;
     for (int k = 0; k < LRCSI_WALL_PLANES && job->bands->orders.body && !below; k++) {
         const lrcsi_wall_plane *plane = &job->plane[k];
         if (k == job->plane_count) {
             job->plane[job->plane_count++] = plane_below(job, m, plane_slopes[k]);
         }
-        const double slack = plane->err + p->proximity.reach[p->scene->facet_part[facet]] +
-                             4 * lrcsi_edge_rectangle_facet_err(view, facet);
+        const double slack = plane->err + reach + 4 * facet_err;
         below = plane->up[2] > PLANE_UP_MIN;
         for (int i = 0; i < slice->count; i++) {
             below = below && lrcsi_vec3_dot(plane->up, slice->x[i]) < plane->level - slack;
@@ -453,7 +454,7 @@ static uint32_t margin_facets_sort(lrcsi_wall_margins *job, const lrcsi_edge_mar
     double most = -HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
         most = lrcsi_max(most, job->facet[job->order[i].value].near[1]);
-        job->near_most[i] = most;
+        job->end_max[i] = most;
     }
     return count;
 }
@@ -495,7 +496,7 @@ static void margin_facets_compare(lrcsi_wall_margins *job, const lrcsi_edge_marg
         const double from = one->outer.from * m->length - m->err;
         const double to = one->outer.to * m->length + m->err;
         uint32_t at = margin_facets_before(job, m, count, to);
-        while (at > 0 && job->near_most[at - 1] >= from) {
+        while (at > 0 && job->end_max[at - 1] >= from) {
             const lrcsi_margin_facet *other = &job->facet[job->order[--at].value];
             const double length = lrcsi_min(to, other->near[1]) - lrcsi_max(from, other->near[0]);
             if (other == one || !(length >= 0)) {
@@ -808,14 +809,14 @@ int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *clas
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
     job->facet = lrcsi_work_take(work, most, sizeof *job->facet);
     job->order = lrcsi_work_take(work, most, sizeof *job->order);
-    job->near_most = lrcsi_work_take(work, most, sizeof *job->near_most);
+    job->end_max = lrcsi_work_take(work, most, sizeof *job->end_max);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
     job->reader = lrcsi_work_take(work, facets, 1);
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
     job->unproved = lrcsi_work_take_zero(work, facets, sizeof *job->unproved);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
-    if (!job->event || !job->facet || !job->order || !job->near_most || !job->reached.entry ||
+    if (!job->event || !job->facet || !job->order || !job->end_max || !job->reached.entry ||
         !job->reader || !job->pairs || !job->unproved || !job->first_pair || !job->next_pair) {
         return LRCS_E_MEMORY;
     }

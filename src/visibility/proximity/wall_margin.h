@@ -57,7 +57,7 @@ typedef struct lrcsi_wall_margins {
     lrcsi_wall_event *event;          /* event */
     lrcsi_margin_facet *facet;        /* those of the edge under examination */
     lrcsi_sort_item *order;           /* the same, by where they begin to be near the edge */
-    double *near_most;                /* the farthest that these and those before are near it */
+    double *end_max;                  /* the largest t to which these or those before are near it */
     lrcsi_outline outline;            /* of the edge under examination; its k is at least delta */
     lrcsi_wall_plane plane[LRCSI_WALL_PLANES]; /* below the part of this edge */
     int plane_count;                           /* so many of them are made: the others when they are
