@@ -177,8 +177,28 @@ static lrcsi_segment_part part_near(const lrcsi_edge_margin *m, const lrcsi_edge
 
 static const lrcsi_segment_part everywhere = {0, 1};
 
-/* Adds the parts of an edge near which (1) is not excluded for the points of a facet. A facet of
-   another part within the slack of such a point is, in projection, within the slack of N. */
+/* What of a slice of a facet, in the view, is within `slack` of the plane of another facet. */
+static lrcsi_slice slice_near_plane(const lrcsi_view *view, const lrcsi_slice *slice,
+                                    uint32_t other, double slack)
+{
+    const lrcs_prepared *p = view->prepared;
+    const double *corner = view->point[p->scene->facet[other].corner[0]].x;
+    const double wide = slack + 4 * lrcsi_edge_rectangle_facet_err(view, other);
+    lrcsi_slice near = *slice;
+    double n[3];
+    double down[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = lrcsi_vec3_dot(view->R[k], p->normal[other].high) / p->normal[other].length;
+        down[k] = -n[k];
+    }
+    lrcsi_slice_cut(&near, n, corner, wide);
+    lrcsi_slice_cut(&near, down, corner, wide);
+    return near;
+}
+
+/* Adds the parts of an edge near which (1) is not excluded for the points of a facet in N: of those
+   near the plane of a facet of another part. Where the other facet is within the slack of such a
+   point, it is, in projection, within the slack of N. */
 static void pairs_add_gaps(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, uint32_t facet,
                            lrcsi_edge_gaps *gaps)
 {
@@ -190,16 +210,22 @@ static void pairs_add_gaps(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, 
         lrcsi_edge_gaps_add(gaps, everywhere);
         return;
     }
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(bands->view, facet, m->edge, m->width);
+    const lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
     for (uint32_t i = job->first_pair[facet]; i != LRCS_NONE; i = job->next_pair[i]) {
         const uint32_t other = p->proximity.pair[i].other;
-        const double slack =
-            m->width + m->err + lrcsi_proximity_slack(p, own, p->scene->facet_part[other]);
-        const lrcsi_edge_rectangle box =
-            lrcsi_edge_rectangle_make(bands->view, other, m->edge, slack);
-        const lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, other, &box);
-        lrcsi_edge_gaps_add(gaps, lrcsi_meter_take(bands->meter, 1)
-                                      ? part_near(m, &box, &slice, slack)
-                                      : everywhere);
+        const double slack = lrcsi_proximity_slack(p, own, p->scene->facet_part[other]);
+        const double wide = m->width + m->err + slack;
+        const lrcsi_edge_rectangle other_box =
+            lrcsi_edge_rectangle_make(bands->view, other, m->edge, wide);
+        const lrcsi_slice other_slice = lrcsi_edge_rectangle_slice(bands->view, other, &other_box);
+        const lrcsi_slice near = slice_near_plane(bands->view, &slice, other, slack);
+        const lrcsi_segment_part at = part_near(m, &box, &near, m->width);
+        lrcsi_segment_part gap = part_near(m, &other_box, &other_slice, wide);
+        gap.from = lrcsi_max(gap.from, at.from);
+        gap.to = lrcsi_min(gap.to, at.to);
+        lrcsi_edge_gaps_add(gaps, lrcsi_meter_take(bands->meter, 1) ? gap : everywhere);
     }
 }
 
