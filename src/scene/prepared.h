@@ -74,11 +74,14 @@ static inline uint32_t lrcsi_batch_lanes(uint32_t start, uint32_t end)
 }
 
 /* Two facets of different parts, the distance between which is within the slack of these parts
-   (lrcsi_proximity_slack). */
+   (lrcsi_proximity_slack). Only what is so near the plane of the other that it matters counts in
+   the fractions (visibility/proximity/proximity_band.c, 1.f). */
 typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
-    float area_fraction; /* upper bound of the fraction of the facet's area within the slack */
-    float row_fraction;  /* of the fraction of its rows with such points (lrcsi_proximity_rows) */
+    float front_fraction; /* upper bound of the fraction of the facet's area that is within the
+                             slack and in front of the plane of the other */
+    float back_fraction;  /* the same, behind that plane */
+    float row_fraction;   /* of the fraction of its rows with such points (lrcsi_proximity_rows) */
 } lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {

@@ -217,19 +217,21 @@ static int pair_apart_by_sides(const lrcs_prepared *p, uint32_t facet, uint32_t 
 /* Is it proved that no part of a facet is within `slack` of the other? The long, narrow facets of
    two flat faces that intersect have boxes that overlap, and neither plane separates them; but most
    pass each other at a distance. */
-static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack,
+                         double along)
 {
     return pair_apart_by_plane(p, facet, other, slack) ||
-           pair_apart_by_plane(p, other, facet, slack) ||
+           pair_apart_by_plane(p, other, facet, along) ||
            pair_apart_by_sides(p, facet, other, slack);
 }
 
-/* The part of a facet that may be within `slack` of the facet `other`: the part between the two
-   planes at that distance from the plane of `other`, and within the three planes at that distance
-   outside its sides. */
-static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+/* The part of a facet that may be within `slack` of the facet `other`, and within `along` of its
+   plane: the part between the two planes at that distance from the plane of `other`, and within the
+   three planes at the slack outside its sides. */
+static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack,
+                              double along)
 {
-    if (pair_is_apart(p, facet, other, slack)) {
+    if (pair_is_apart(p, facet, other, slack, along)) {
         return (lrcsi_slice){.count = 0};
     }
     const lrcsi_normal *normal = &p->normal[other];
@@ -242,17 +244,65 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
         n[k] = normal->high[k] / normal->length;
         down[k] = -n[k];
     }
-    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), slack);
-    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), slack);
+    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), along);
+    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), along);
     for (int side = 0; side < 3 && slice.count > 0; side++) {
         const double *a = lrcsi_prepared_corner(p, other, side);
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
-        const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        const double side_vector[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         double out[3];
-        lrcsi_vec3_cross(along, n, out);
+        lrcsi_vec3_cross(side_vector, n, out);
         lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
     }
     return slice;
+}
+
+/* What of a slice is in front of the plane of a facet (side 1), or behind it (-1). */
+static lrcsi_slice slice_on_side(const lrcs_prepared *p, const lrcsi_slice *slice, uint32_t other,
+                                 int side)
+{
+    lrcsi_slice part = *slice;
+    double beyond[3];
+    for (int k = 0; k < 3; k++) {
+        beyond[k] = -side * (p->normal[other].high[k] / p->normal[other].length);
+    }
+    lrcsi_slice_cut(&part, beyond, lrcsi_prepared_corner(p, other, 0), LRCSI_PROXIMITY_ERR);
+    return part;
+}
+
+double lrcsi_proximity_fraction(const lrcs_prepared *p, uint32_t facet, uint32_t other,
+                                double slack, int side)
+{
+    const lrcsi_slice slice = pair_slice(p, facet, other, slack, slack);
+    const lrcsi_slice part = slice_on_side(p, &slice, other, side);
+    return lrcsi_slice_fraction(&part, 0.5 * p->normal[facet].length,
+                                lrcsi_proximity_longest(p, facet));
+}
+
+int lrcsi_proximity_side_is_far(const lrcs_prepared *p, uint32_t facet, int side, uint32_t other,
+                                double distance)
+{
+    const double *a = lrcsi_prepared_corner(p, facet, side);
+    const double *b = lrcsi_prepared_corner(p, facet, (side + 1) % 3);
+    const lrcsi_normal *normal = &p->normal[facet];
+    lrcsi_slice slice =
+        lrcsi_slice_start(lrcsi_prepared_corner(p, other, 0), lrcsi_prepared_corner(p, other, 1),
+                          lrcsi_prepared_corner(p, other, 2));
+    double n[3][3]; /* normal to the facet; along the side; in the facet, perpendicular to it */
+    for (int k = 0; k < 3; k++) {
+        n[0][k] = normal->high[k] / normal->length;
+    }
+    lrcsi_vec3_between(a, b, n[1]);
+    lrcsi_vec3_cross(n[0], n[1], n[2]);
+    for (int i = 0; i < 3 && slice.count > 0; i++) {
+        const double down[3] = {-n[i][0], -n[i][1], -n[i][2]};
+        const double square = lrcsi_vec3_dot(n[i], n[i]);
+        if (square > LEAST_SQUARE) {
+            lrcsi_slice_cut(&slice, n[i], b, distance * sqrt(square));
+            lrcsi_slice_cut(&slice, down, a, distance * sqrt(square));
+        }
+    }
+    return slice.count == 0;
 }
 
 /* --- all pairs -------------------------------------------------------------------------------- */
@@ -263,8 +313,10 @@ static float fraction_float(double fraction)
     return (float)lrcsi_min(1, fraction * LRCSI_OUTWARD_FLOAT);
 }
 
-/* Pairs are allocated one by one and must be contiguous. */
-_Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between pairs");
+/* Pairs are allocated so many at a time, and must be contiguous. */
+enum { PAIRS_TAKEN = 4 };
+_Static_assert(PAIRS_TAKEN * sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0,
+               "no gaps between pairs");
 
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *p, uint32_t facet)
 {
@@ -273,31 +325,57 @@ int lrcsi_proximity_on_round_wall(const lrcs_prepared *p, uint32_t facet)
            lrcsi_shape_is_round(p->scene->part[part].kind);
 }
 
-/* Adds a pair if part of the facet is within the slack of the other. */
+/* How far from the plane of a facet of another part points of a facet matter, at most its slack:
+   visibility/proximity/proximity_band.c, 1.f. */
+static double slack_along(const lrcs_prepared *p, uint32_t other, double slack,
+                          const lrcsi_displacement *displacement)
+{
+    const uint32_t part = p->scene->facet_part[other];
+    const double theirs = p->proximity.hausdorff[part];
+    double n[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = p->normal[other].high[k] / p->normal[other].length;
+    }
+    return theirs > 0 && part_is_open(p, part)
+               ? slack
+               : lrcsi_min(slack, lrcsi_displacement_along(displacement, n) + theirs +
+                                      LRCSI_PROXIMITY_ERR);
+}
+
+/* Adds a pair if part of the facet is within the slack of the other. Given: how far the facet's
+   points are displaced. */
 static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, double slack,
-                         lrcs_work *work)
+                         const lrcsi_displacement *displacement, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
-    lrcsi_slice slice = pair_slice(p, facet, other, slack);
+    const double along = slack_along(p, other, slack, displacement);
+    lrcsi_slice slice = pair_slice(p, facet, other, slack, along);
     if (slice.count == 0) {
         return LRCS_OK;
     }
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
-    double fraction = lrcsi_slice_fraction(&slice, 0.5 * p->normal[facet].length,
-                                           lrcsi_proximity_longest(p, facet));
+    const double whole = 0.5 * p->normal[facet].length;
+    const double longest = lrcsi_proximity_longest(p, facet);
+    const lrcsi_slice front = slice_on_side(p, &slice, other, 1);
+    const lrcsi_slice back = slice_on_side(p, &slice, other, -1);
+    const double fraction[2] = {lrcsi_slice_fraction(&front, whole, longest),
+                                lrcsi_slice_fraction(&back, whole, longest)};
     double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
-    if (!(fraction > 0)) {
+    if (!(fraction[0] > 0 || fraction[1] > 0)) {
         return LRCS_OK;
     }
-    lrcsi_proximity_pair *pair = lrcsi_work_take(work, 1, sizeof *pair);
-    if (!pair) {
-        return LRCS_E_MEMORY;
+    if (proximity->count % PAIRS_TAKEN == 0) {
+        lrcsi_proximity_pair *more = lrcsi_work_take(work, PAIRS_TAKEN, sizeof *more);
+        if (!more) {
+            return LRCS_E_MEMORY;
+        }
+        proximity->pair = proximity->pair ? proximity->pair : more;
     }
-    *pair = (lrcsi_proximity_pair){facet, other, fraction_float(fraction), fraction_float(rows)};
-    proximity->pair = proximity->pair ? proximity->pair : pair;
-    proximity->count++;
+    proximity->pair[proximity->count++] =
+        (lrcsi_proximity_pair){facet, other, fraction_float(fraction[0]),
+                               fraction_float(fraction[1]), fraction_float(rows)};
     return LRCS_OK;
 }
 
@@ -345,20 +423,21 @@ static double boxes_gap(const lrcsi_box *a, const lrcsi_box *b)
     return gap;
 }
 
-/* Adds the pairs of a facet of a curved part, with the given box, and another one of another part,
-   in both orders. If both parts are curved, only the order in which this facet comes first is added
-   here: the other order is added for the other facet. */
+/* Adds the pairs of a facet of a curved part, with the given box and displacement of its points,
+   and another one of another part, in both orders. If both parts are curved, only the order in
+   which this facet comes first is added here: the other order is added for the other facet. */
 static int pairs_of_two(lrcs_prepared *p, uint32_t facet, uint32_t other, const lrcsi_box *box,
-                        lrcs_work *work)
+                        const lrcsi_displacement *displacement, lrcs_work *work)
 {
+    const lrcsi_displacement none = {.known = 0};
     const uint32_t *part = p->scene->facet_part;
     const double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
     const lrcsi_box other_box = lrcsi_box_of(p->vertex, &p->scene->facet[other]);
     const double gap = boxes_gap(box, &other_box);
-    int status = gap <= slack ? proximity_add(p, facet, other, slack, work) : LRCS_OK;
+    int status = gap <= slack ? proximity_add(p, facet, other, slack, displacement, work) : LRCS_OK;
     if (status == LRCS_OK && p->proximity.reach[part[other]] == 0) {
         const double back = lrcsi_proximity_slack(p, part[other], part[facet]);
-        status = gap <= back ? proximity_add(p, other, facet, back, work) : LRCS_OK;
+        status = gap <= back ? proximity_add(p, other, facet, back, &none, work) : LRCS_OK;
     }
     return status;
 }
@@ -385,7 +464,7 @@ static void near_find(lrcs_prepared *p, uint32_t facet, const lrcsi_box *box,
             LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
         const lrcsi_box other_box = lrcsi_box_of(p->vertex, &p->scene->facet[other]);
         if (boxes_gap(box, &other_box) <= distance &&
-            pair_slice(p, facet, other, distance).count > 0) {
+            pair_slice(p, facet, other, distance, distance).count > 0) {
             *near |= set;
             walk.also_without |= part[other] < LRCSI_PART_SET_SINGLE ? set : 0;
         }
@@ -403,6 +482,7 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search,
         2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
     const lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     const lrcsi_box wide = box_within(&box, within);
+    const lrcsi_displacement displacement = lrcsi_proximity_displacement(p, facet);
     lrcsi_tree_walk walk = lrcsi_tree_within(tree, &wide, part);
     int status = LRCS_OK;
     uint32_t at;
@@ -419,7 +499,7 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, pair_search *search,
             narrow_search(p, facet, within, &walk);
         }
         if (scene->facet_part[other] != part) {
-            status = pairs_of_two(p, facet, other, &box, work);
+            status = pairs_of_two(p, facet, other, &box, &displacement, work);
         }
     }
     if (lrcsi_proximity_on_round_wall(p, facet)) {

@@ -61,6 +61,16 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
    for these facets only. */
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *prepared, uint32_t facet);
 
+/* An upper bound of the fraction of a facet's area that is within `slack` of another facet and in
+   front of its plane (side 1) or behind it (-1). */
+double lrcsi_proximity_fraction(const lrcs_prepared *prepared, uint32_t facet, uint32_t other,
+                                double slack, int side);
+
+/* Is it proved that a facet's side, from corner `side` to the next, is farther than this distance
+   from another facet? */
+int lrcsi_proximity_side_is_far(const lrcs_prepared *prepared, uint32_t facet, int side,
+                                uint32_t other, double distance);
+
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The slack between flat and round parts. The rows of facets on straight walls: whatever the shape,
-   and mirrored, they run across the axis. Which facets are within the slack. */
+   and mirrored, they run across the axis. Which facets are within the slack,
+   and what of them is near a contact. */
 #include "scene/proximity.h"
 
 #include <string.h>
@@ -9,6 +10,7 @@
 #include "base/vec3.h"
 #include "check.h"
 #include "mesh/box.h"
+#include "mesh/shape/revolution.h"
 #include "scene/prepare.h"
 
 static unsigned char scene_area[1u << 22];
@@ -178,7 +180,8 @@ static double distance(const double *const a[3], const double *const b[3])
 }
 
 /* Two drums whose ends intersect, and a ball between them: of the facets of their ends, long and
-   narrow, most pass each other, but none that are within the slack may be missed. */
+   narrow, most pass each other, but none that are within the slack may be missed; on walls, none
+   that are within the Hausdorff distance, since points at the slack may be displaced sideways. */
 static void all_facets_within_the_slack_are_pairs(void **state)
 {
     (void)state;
@@ -220,13 +223,133 @@ static void all_facets_within_the_slack_are_pairs(void **state)
             for (int k = 0; k < 3; k++) {
                 apart |= own.low[k] > theirs.high[k] + slack || theirs.low[k] > own.high[k] + slack;
             }
-            if (!apart && distance(a, b) < 0.999 * slack) {
+            const double least =
+                scene->facet_smooth[f] ? p->proximity.hausdorff[scene->facet_part[g]] : slack;
+            if (!apart && distance(a, b) < 0.999 * least) {
                 assert_true(is_pair[f][g]);
                 ends += !scene->facet_smooth[f] && !scene->facet_smooth[g];
             }
         }
     }
     assert_true(ends > 50);
+}
+
+/* Is a point behind all facets of a convex part, whose Hausdorff distance does not count? */
+static int is_in_facets(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
+{
+    int in = 1;
+    for (uint32_t g = part->first_facet; g < part->first_facet + part->facet_count && in; g++) {
+        double from[3];
+        lrcsi_vec3_between(lrcsi_prepared_corner(p, g, 0), x, from);
+        in = lrcsi_vec3_dot(p->normal[g].high, from) <= 0;
+    }
+    return in;
+}
+
+/* Is a point in a cylinder, or in a box? */
+static int is_in_shape(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
+{
+    double at[3];
+    for (int i = 0; i < 3; i++) {
+        const double from[3] = {ldexp(x[0], p->exponent) - part->origin[0],
+                                ldexp(x[1], p->exponent) - part->origin[1],
+                                ldexp(x[2], p->exponent) - part->origin[2]};
+        at[i] = lrcsi_vec3_dot(part->axis[i], from);
+    }
+    if (part->kind == LRCS_SHAPE_BOX) {
+        const double *size = part->shape.size;
+        return fabs(at[0]) <= 0.5 * size[0] && fabs(at[1]) <= 0.5 * size[1] &&
+               fabs(at[2]) <= 0.5 * size[2];
+    }
+    return at[0] * at[0] + at[1] * at[1] <= part->shape.radius * part->shape.radius && at[2] >= 0 &&
+           at[2] <= part->shape.length;
+}
+
+/* The point of a cylinder about the z axis to which the map takes a point of a facet of its wall:
+   y = rho kappa (1, v tan h), x = rho (cos vh, sin vh), radial and around; FORMULAS of
+   mesh/shape/revolution_reach.c. */
+static void map_to_wall(const lrcs_prepared *p, const lrcs_part *part, uint32_t facet,
+                        const double y[3], double x[3])
+{
+    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    const lrcsi_normal *n = &p->normal[facet];
+    const double radial[2] = {n->high[0] / n->length, n->high[1] / n->length};
+    const double radius = ldexp(part->shape.radius, -p->exponent);
+    const double inner = radius * body.vertex_ratio * cos(body.half);
+    const double v = (y[1] * radial[0] - y[0] * radial[1]) / (inner * tan(body.half));
+    check_abs(y[0] * radial[0] + y[1] * radial[1], inner, 1e-12);
+    x[0] = radius * (cos(v * body.half) * radial[0] - sin(v * body.half) * radial[1]);
+    x[1] = radius * (cos(v * body.half) * radial[1] + sin(v * body.half) * radial[0]);
+    x[2] = y[2];
+}
+
+/* A cylinder that another one, or a box, pierces at an angle: of each facet of its wall, the
+   fraction of points in the facets of the other part that are in truth outside of it is at most
+   what its pairs have behind the other's facets, and the reverse at most what they have in front.
+   Sampled at 20,000 points of each facet, evenly distributed by multiples of two irrational
+   numbers. */
+static void contacts_change_no_more_than_the_fractions_of_pairs(void **state)
+{
+    (void)state;
+    enum { WALL, OTHER, PARTS, SAMPLES = 20000 };
+    static const double turned[3][3] = {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}};
+    const lrcs_shape other[2] = {{.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 3},
+                                 {.kind = LRCS_SHAPE_BOX, .size = {0.7, 0.8, 4}}};
+    for (int k = 0; k < 2; k++) {
+        lrcs_recipe_part part[PARTS];
+        for (int i = 0; i < PARTS; i++) {
+            part[i] = (lrcs_recipe_part){.name = "", .place = lrcs_place_default()};
+            part[i].material_index = -1;
+        }
+        part[WALL].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 4};
+        part[OTHER].shape = other[k];
+        part[OTHER].place.translate[2] = 1.7;
+        part[OTHER].place.translate[1] = 0.1;
+        memcpy(part[OTHER].place.rotate, turned, sizeof turned);
+        const lrcs_recipe recipe = {.part = part, .part_count = PARTS};
+        const lrcs_prepared *p = prepare_recipe(&recipe, 1e-2, 100);
+        const lrcs_part *wall = &p->scene->part[WALL];
+        double all[2][2] = {{0, 0}, {0, 0}}; /* behind, in front: sampled, and of the pairs */
+        for (uint32_t f = wall->first_facet; f < wall->first_facet + wall->facet_count; f++) {
+            double most[2] = {0, 0};
+            int count[2] = {0, 0};
+            for (size_t i = 0; i < p->proximity.count; i++) {
+                const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
+                most[0] += pair->facet == f ? (double)pair->back_fraction : 0;
+                most[1] += pair->facet == f ? (double)pair->front_fraction : 0;
+            }
+            for (int n = 0; n < SAMPLES && p->scene->facet_smooth[f] != 0; n++) {
+                double a = fmod(0.5 + n * 0.7548776662466927, 1);
+                double b = fmod(0.5 + n * 0.5698402909980532, 1);
+                double y[3];
+                double x[3];
+                if (a + b > 1) {
+                    a = 1 - a;
+                    b = 1 - b;
+                }
+                for (int i = 0; i < 3; i++) {
+                    y[i] = a * lrcsi_prepared_corner(p, f, 0)[i] +
+                           b * lrcsi_prepared_corner(p, f, 1)[i] +
+                           (1 - a - b) * lrcsi_prepared_corner(p, f, 2)[i];
+                }
+                map_to_wall(p, wall, f, y, x);
+                const int in_facets = is_in_facets(p, &p->scene->part[OTHER], y);
+                const int in_shape = is_in_shape(p, &p->scene->part[OTHER], x);
+                count[0] += in_facets && !in_shape;
+                count[1] += !in_facets && in_shape;
+            }
+            for (int i = 0; i < 2; i++) {
+                const double sampled = (double)count[i] / SAMPLES;
+                check_most(sampled, most[i] > 0 ? most[i] + 10.0 / SAMPLES : 0);
+                all[i][0] += sampled;
+                all[i][1] += most[i];
+            }
+        }
+        for (int i = 0; i < 2; i++) { /* the bound is not much larger */
+            check_most(all[i][1], 16 * all[i][0]);
+            assert_true(all[i][0] > 0.001);
+        }
+    }
 }
 
 /* A ball above a plate, and another plate below that. A facet of the ball is near a plate if its
@@ -271,6 +394,7 @@ int main(void)
         cmocka_unit_test(rows_of_straight_walls_lie_across_the_axis),
         cmocka_unit_test(facets_of_round_shapes_have_no_rows),
         cmocka_unit_test(all_facets_within_the_slack_are_pairs),
+        cmocka_unit_test(contacts_change_no_more_than_the_fractions_of_pairs),
         cmocka_unit_test(round_facets_know_which_parts_are_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,8 +16,8 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
     const lrcsi_flat_face unused = {.facet = LRCS_NONE};
     lrcsi_flat_face face = unused;
     double most = 0;
-    double with = 2 * whole->face[number].error; /* the sum of both errors, gain and loss */
-    double without = 0;
+    double with[2] = {whole->face[number].error, whole->face[number].error}; /* gain, loss */
+    double without[2] = {0, 0};
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         if (lrcsi_face_of(view, f) != number) {
             continue;
@@ -27,19 +27,21 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
         }
         const double projected = lrcsi_view_projected(view, f);
         const double hidden = lrcsi_max(0, projected - visible[f].low);
+        const int may_exceed = part->bounds.reach > 0 && lrcsi_face_border_sides(view, f) != 0;
+        const double gain = projected * lrcsi_masked_gain_aligned(band, f);
         if (visible[f].low > most) {
             most = visible[f].low;
             face.facet = f;
         }
-        without += lrcsi_min(hidden, projected * lrcsi_masked_gain(band, f)) +
-                   lrcsi_min(visible[f].high, projected * lrcsi_masked_loss(band, f));
-        with += lrcsi_min(hidden, projected * whole->gain_aligned[f]) +
-                lrcsi_min(visible[f].high, projected * whole->loss_aligned[f]);
+        without[0] += lrcsi_min(hidden, projected * lrcsi_masked_gain(band, f));
+        without[1] += lrcsi_min(visible[f].high, projected * lrcsi_masked_loss(band, f));
+        with[0] += may_exceed ? gain : lrcsi_min(hidden, gain);
+        with[1] += lrcsi_min(visible[f].high, projected * lrcsi_masked_loss_aligned(band, f));
     }
     face.area = whole->face[number].area;
     face.error = whole->face[number].error;
     face.causes = whole->face[number].causes;
-    return with < without ? face : unused;
+    return lrcsi_max(with[0], with[1]) < lrcsi_max(without[0], without[1]) ? face : unused;
 }
 
 void lrcsi_flat_faces_make(const lrcsi_masked_band *band, const lrcsi_visible_area *visible,

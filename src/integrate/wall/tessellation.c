@@ -149,7 +149,6 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
                                      const lrcs_patch_bounds *bounds, lrcsi_patches *patches)
 {
     const lrcs_prepared *p = in->view->prepared;
-    const lrcsi_proximity_band *band = in->band->whole;
     const lrcsi_flat_face *face = lrcsi_flat_face_of(in->face, in->view, facet);
     const lrcsi_deviation d =
         lrcsi_patch_deviation_make(in, facet, incidence, bounds, patches).of_f;
@@ -166,8 +165,9 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
         const double projected = incidence->projected * (1 - incidence->error);
         either += (value * face->error + point * fabs(face->area)) / projected;
     }
-    return (lrcsi_tessellation){either + value * fmin(most, band->gain_aligned[facet]),
-                                either + value * band->loss_aligned[facet], 0, 0, 0};
+    return (lrcsi_tessellation){
+        either + value * fmin(most, lrcsi_masked_gain_aligned(in->band, facet)),
+        either + value * lrcsi_masked_loss_aligned(in->band, facet), 0, 0, 0};
 }
 
 /* The error of the margins on a facet, per unit of its area. F in them may be that of a patch some

@@ -84,18 +84,19 @@
    visible, and w = 1 where one of U is, on facets, the true shapes leave visible, in projection,
        Int_V v - Int_U w = Int_(U and V) (v - w) + Int_(V without U) v - Int_(U without V) w
    more. In the first integral points are aligned, and in the same place to within rounding: so 5
-   holds without a condition on the order of parts, except that (1) remains, within the slack of P
-   and Q (the pairs of scene/proximity.c), for facets of Q that are not in front or behind. It is at
-   most the sum of the fractions of aligned points; along an event edge it may instead be known
-   together for the whole face, because each point is attributed to the nearest event edge of Q only
-   (4): between the loss and the gain of outline.c or, where nothing else is near, with its sign.
-   The other two integrals are over regions along the sides of U, no wider than e_P, where V exceeds
-   the side or falls short of it. For each side the areas of both are equal, by symmetry. If the
-   side is free and no facet of a pair adjoins it, but for parts that pierce the face, then v = w is
-   constant there, and the two integrals cancel: for a Q that is open and neither in front nor
-   behind this is not proved, and faces are not used if such a Q comes within its slack of them in
-   projection. Along any other side they differ by at most the area of either region, below twice
-   the side's length times e_P.
+   holds without a condition on the order of parts, except that (1) remains, within r' and the
+   rounding of places, for facets of Q that are not in front or behind; 1.f of proximity_band.c
+   tells on which side. It is at most the sum of the fractions of aligned points; along an event
+   edge it may instead be known together for the whole face, because each point is attributed to
+   the nearest event edge of Q only (4): between the loss and the gain of outline.c or, where
+   nothing else is near, with its sign. The other two integrals are over regions along the sides
+   of U, no wider than e_P, where V exceeds the side or falls short of it. For each side the
+   areas of both are equal, by symmetry. If the side is free and farther than the slack of P and
+   Q and 4 e_P from all facets of Q that are not in front or behind, but for parts that pierce
+   the face, then v = w is constant there, and the two integrals cancel: for a Q that is open and
+   neither in front nor behind this is not proved, and faces are not used if such a Q comes
+   within its slack of them in projection. Along any other side they differ by at most the area
+   of either region, below twice the side's length times e_P.
 
    7. Signs of displacements. Let Q be exact, k_Q = 0, and P have a straight wall, placed without
    distortion. With the symbols of mesh/shape/revolution_reach.c, on a sector with h, kappa and the

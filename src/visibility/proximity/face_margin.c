@@ -606,7 +606,7 @@ static void face_add_cut(face_job *job, lrcsi_face_margin *face)
 static void face_add_unproved(const face_job *job, lrcsi_face_margin *face)
 {
     const uint32_t parts = job->bands->view->prepared->scene->part_count;
-    for (uint32_t i = 0; i < parts && face->known; i++) {
+    for (uint32_t i = 0; i < parts && job->parts_known; i++) {
         face->error += job->part[i].unproved * LRCSI_OUTWARD_NANO;
     }
 }
@@ -652,8 +652,12 @@ void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *cla
         const int is_box = scene->part[i / LRCSI_FACES_OF_PART].kind == LRCS_SHAPE_BOX;
         face[i] = (lrcsi_face_margin){.known = 0};
         job.parts_known = 0;
-        if (job.part && job.near && job.beyond && (is_box || i % LRCSI_FACES_OF_PART == 0) &&
-            lrcsi_face_frame_make(bands, i, &job.face) && face_has_margins(&job)) {
+        if (!job.part || !job.near || !job.beyond || !(is_box || i % LRCSI_FACES_OF_PART == 0) ||
+            !lrcsi_face_frame_make(bands, i, &job.face)) {
+            continue;
+        }
+        face[i].known = !job.face.is_rectangle; /* aligned points serve it without margins, too */
+        if (face_has_margins(&job)) {
             face_add(&job, &face[i], faces);
             face_add_cut(&job, &face[i]);
             face_add_unproved(&job, &face[i]);

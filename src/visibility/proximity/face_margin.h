@@ -12,7 +12,7 @@
 /* Of a face. */
 typedef struct lrcsi_face_margin {
     int known;             /* 0: there is no such face, or nothing is known; the others are not
-                              set */
+                              set. A face of a curved part is known even without margins */
     double area;           /* in projection, scaled: what the true shapes leave visible of the face
                               in these margins, less what their facets leave */
     double error;          /* bound on its error */

@@ -57,4 +57,17 @@ static inline double lrcsi_masked_rows(const lrcsi_masked_band *band, uint32_t f
     return band->facet_hidden[facet] ? 0 : band->whole->rows[facet];
 }
 
+/* Those of aligned points of a facet on a known face. If a part whose bands the facet does not meet
+   hides the facet, it hides all points of the true face within its reach
+   (visibility/proximity/proximity_band.c, 1.c and d): those beside its sides, too. */
+static inline double lrcsi_masked_gain_aligned(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->gain_aligned[facet];
+}
+
+static inline double lrcsi_masked_loss_aligned(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->loss_aligned[facet];
+}
+
 #endif

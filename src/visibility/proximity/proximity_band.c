@@ -65,6 +65,16 @@
         W is on the ray of x; so it is within e_P of y, and (1) holds again.
       The event edge within k_Q of the rim point is within m + k_Q <= r of y in projection and not
       2 r behind y: (2) holds. []
+   f. A facet of Q in (1) matters only if y is within a distance a of its plane, unless Q is open
+      and k_Q > 0: a = k_Q plus a bound on the component of x - y perpendicular to that plane. On
+      the side of the plane towards the laser y can only be lost, on the other side only gained; if
+      Q is open and k_Q > 0, gain is possible on both sides. Proof: as in event_band.c, 1, straight
+      paths from y to the points z = x + v, |v| <= k_Q, suffice for b to d. Such a path moves by at
+      most a perpendicular to the plane, and crosses it at most once; so it crosses the facet only
+      if y is within a of the plane. The number of facets on the ray of z rises from 0 at a facet
+      only where z passes from its side towards the laser to the other, and falls to 0 at a facet
+      only where z passes it the other way. By b, y is lost only if that number rises from 0 on a
+      path; by c and d, it is gained only if the number falls to 0. []
 
    2. Grazing facets. Facets that are edge-on to within rounding (lrcsi_proximity.grazing_cos) count
    as uncertain over their whole area: rounding may have folded the mesh there.
@@ -117,17 +127,24 @@ static const lrcsi_near_sides sides_near = {{{0, 1}, {0, 1}, {0, 1}}};
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Adds a fraction of a facet's area, near one of these parts, where the facets may hide what the
-   true shapes do not, or the reverse. */
+/* Adds fractions of a facet's area, near one of these parts: of `area`, what the facets may hide
+   and the true shapes may not, and the reverse. */
+static void add_fractions(lrcsi_proximity_band *band, uint32_t facet, double area, double gain,
+                          double loss, lrcsi_part_set parts)
+{
+    band->parts[facet] |= parts;
+    band->mismatch[facet] += area;
+    band->gain[facet] += gain;
+    band->loss[facet] += loss;
+    band->margin[facet].gain += gain;
+    band->margin[facet].loss += loss;
+}
+
+/* Adds a fraction of a facet's area, near one of these parts, where both may be. */
 static void add_both(lrcsi_proximity_band *band, uint32_t facet, double fraction,
                      lrcsi_part_set parts)
 {
-    band->parts[facet] |= parts;
-    band->mismatch[facet] += fraction;
-    band->gain[facet] += fraction;
-    band->loss[facet] += fraction;
-    band->margin[facet].gain += fraction;
-    band->margin[facet].loss += fraction;
+    add_fractions(band, facet, fraction, fraction, fraction, parts);
 }
 
 /* Adds the fraction of a facet for which the proof of its order with another part does not hold,
@@ -293,20 +310,27 @@ static int begin_aligned(band_job *job, uint32_t facet)
 }
 
 /* Adds the rim of a known flat face to the fractions of aligned points of one of its facets
-   (event_band.c, 6). Given: what of the facet is near facets of other parts. */
-static void add_face_rim(band_job *job, uint32_t facet, double pairs)
+   (event_band.c, 6). */
+static void add_face_rim(band_job *job, uint32_t facet)
 {
     lrcsi_proximity_band *band = job->band;
     const lrcs_prepared *p = job->view->prepared;
     const double reach = p->proximity.reach[p->scene->facet_part[facet]];
     const unsigned sides = lrcsi_face_border_sides(job->view, facet);
     for (int k = 0; k < 3; k++) {
-        if (((sides >> k) & 1) != 0 && (pairs > 0 || !lrcsi_band_side_is_free(band, facet, k))) {
+        if (((sides >> k) & 1) != 0 && !lrcsi_band_side_is_free(band, facet, k)) {
             double rim = 4 * reach * lrcsi_proximity_longest(p, facet) / p->normal[facet].length;
             band->gain_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
             band->loss_aligned[facet] += rim * LRCSI_OUTWARD_NANO;
         }
     }
+}
+
+/* Is a facet on a flat face whose margins are known? */
+static int is_on_known_face(const band_job *job, uint32_t facet)
+{
+    const uint32_t face = lrcsi_face_of(job->view, facet);
+    return face != LRCS_NONE && job->band->face[face].known;
 }
 
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
@@ -319,19 +343,14 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
 /* 1. Nothing is near a flat facet that no curved part overlaps in projection;
    2. event edges near the facet, listed once for both correspondences of points;
    3. grazing incidence.
-   Given: on a flat face, what of it is near other parts that do not pierce the face. */
-static void facet_fractions(band_job *job, uint32_t facet, double pairs)
+   Given: on a known flat face, what of it is near other parts that do not pierce the face. */
+static void facet_fractions(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[p->scene->facet_part[facet]];
     const lrcsi_edge_search where = lrcsi_band_search(&job->bands, facet);
-    const uint32_t face = lrcsi_face_of(view, facet);
-    const int on_face = face != LRCS_NONE && job->band->face[face].known;
-    if (on_face) {
-        job->band->gain_aligned[facet] = job->band->loss_aligned[facet] = pairs;
-        job->band->sides[facet] = sides_free;
-    }
+    const int on_face = is_on_known_face(job, facet);
     if (reach == 0 && /* 1 */
         (where.low[0] > job->curved.high[0] || where.low[1] > job->curved.high[1] ||
          where.high[0] < job->curved.low[0] || where.high[1] < job->curved.low[1])) {
@@ -352,7 +371,7 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
         }
     }
     if (found && on_face) {
-        add_face_rim(job, facet, pairs);
+        add_face_rim(job, facet);
     }
     if (reach > 0 && /* 3 */
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
@@ -364,8 +383,58 @@ static void facet_fractions(band_job *job, uint32_t facet, double pairs)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Adds the fractions near facets of other parts; those of parts that do not pierce a face also to
-   gain_aligned, for now. Facets seen edge-on hide nothing, and the back
+/* What is gained and lost near a facet of another part, of the fractions on its side towards the
+   laser, and on its other side: 1.f. */
+static void pair_sides(const band_job *job, const lrcsi_proximity_pair *pair, double towards,
+                       double away, double *gain, double *loss)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t other = p->scene->facet_part[pair->other];
+    const int both = p->proximity.hausdorff[other] > 0 && lrcsi_proximity_openings(p, other) > 0;
+    *gain = both ? away + towards : away;
+    *loss = towards;
+}
+
+/* Adds what of a facet on a known flat face is near a facet of another part that does not pierce
+   the face, to gain_aligned and loss_aligned, for now, and to its sides (event_band.c, 6). */
+static void add_face_pair(band_job *job, const lrcsi_proximity_pair *pair)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t part = p->scene->facet_part[pair->facet];
+    const uint32_t other = p->scene->facet_part[pair->other];
+    const int up = job->view->facing[pair->other];
+    const double same = ldexp(p->scene->part[part].bounds.position_err, -p->exponent);
+    const double slack = lrcsi_proximity_slack_aligned(p, other) + LRCSI_PROXIMITY_ERR + same;
+    const double rim = lrcsi_proximity_slack(p, part, other) + 4 * p->proximity.reach[part];
+    double gain = 1;
+    double loss = 1;
+    if (lrcsi_meter_take(job->meter, 1)) {
+        pair_sides(job, pair, lrcsi_proximity_fraction(p, pair->facet, pair->other, slack, up),
+                   lrcsi_proximity_fraction(p, pair->facet, pair->other, slack, -up), &gain, &loss);
+    }
+    job->band->gain_aligned[pair->facet] += gain;
+    job->band->loss_aligned[pair->facet] += loss;
+    for (int k = 0; k < 3; k++) {
+        if (!lrcsi_proximity_side_is_far(p, pair->facet, k, pair->other, rim)) {
+            job->band->sides[pair->facet].side[k] = sides_near.side[k];
+        }
+    }
+}
+
+/* Adds the fraction of a facet for which it is not proved that a part is in front or behind; on a
+   known flat face also to those of aligned points, and to its sides. */
+static void add_unproved_pair(band_job *job, uint32_t facet, uint32_t other, double unproved,
+                              int on_face)
+{
+    const double open = add_unproved(job, facet, other, unproved);
+    if (open > 0 && on_face) {
+        job->band->gain_aligned[facet] += open;
+        job->band->loss_aligned[facet] += open;
+        job->band->sides[facet] = sides_near;
+    }
+}
+
+/* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and the back
    sides of a closed part hide nothing that its front sides do not hide. The depth order of a flat
    facet and a part in front of its plane is certain. */
 static void add_pairs(band_job *job)
@@ -377,21 +446,27 @@ static void add_pairs(band_job *job)
         int facing = view->facing[pair->other];
         int closed = p->solid || p->scene->part[p->scene->facet_part[pair->other]].solid;
         uint32_t other = p->scene->facet_part[pair->other];
-        double near = (double)pair->area_fraction;
         double err;
         double unproved;
         if (facing == 0 || (facing < 0 && closed)) {
             continue;
         }
+        const int on_face =
+            is_on_known_face(job, pair->facet) && !pierces_face(job, pair->facet, other);
         if (lrcsi_part_is_behind(&job->bands.orders, pair->facet, other, &unproved) ||
             lrcsi_part_is_in_front(&job->bands.orders, pair->facet, other, &err, &unproved)) {
-            near = add_unproved(job, pair->facet, other, unproved);
-        } else {
-            add_both(job->band, pair->facet, near, lrcsi_part_set_of(other));
-            job->band->rows[pair->facet] += (double)pair->row_fraction;
+            add_unproved_pair(job, pair->facet, other, unproved, on_face);
+            continue;
         }
-        if (!pierces_face(job, pair->facet, other)) {
-            job->band->gain_aligned[pair->facet] += near;
+        const double front = (double)pair->front_fraction;
+        const double back = (double)pair->back_fraction;
+        double gain;
+        double loss;
+        pair_sides(job, pair, facing > 0 ? front : back, facing > 0 ? back : front, &gain, &loss);
+        add_fractions(job->band, pair->facet, front + back, gain, loss, lrcsi_part_set_of(other));
+        job->band->rows[pair->facet] += (double)pair->row_fraction;
+        if (on_face) {
+            add_face_pair(job, pair);
         }
     }
 }
@@ -469,16 +544,15 @@ static int all_fractions(band_job *job, lrcs_work *work)
     if (status != LRCS_OK) {
         return status;
     }
-    add_pairs(job); /* 2 */
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->rim[f] = sides_free.side[0];
+        band->sides[f] = is_on_known_face(job, f) ? sides_free : sides_near;
     }
+    add_pairs(job); /* 2 */
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        const double pairs = band->gain_aligned[f];
-        band->gain_aligned[f] = -1;
-        band->sides[f] = sides_near;
+        band->gain_aligned[f] = is_on_known_face(job, f) ? band->gain_aligned[f] : -1;
         if (facet_matters(job->view, f)) {
-            facet_fractions(job, f, pairs); /* 3 */
+            facet_fractions(job, f); /* 3 */
         }
         margin_finish(band, f); /* 4 */
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
