@@ -249,9 +249,10 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
     for (int side = 0; side < 3 && slice.count > 0; side++) {
         const double *a = lrcsi_prepared_corner(p, other, side);
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
-        const double side_vector[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        double ab[3];
         double out[3];
-        lrcsi_vec3_cross(side_vector, n, out);
+        lrcsi_vec3_between(a, b, ab);
+        lrcsi_vec3_cross(ab, n, out);
         lrcsi_slice_cut(&slice, out, a, slack * sqrt(lrcsi_vec3_dot(out, out)));
     }
     return slice;

@@ -383,8 +383,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* What is gained and lost near a facet of another part, of the fractions on its side towards the
-   laser, and on its other side: 1.f. */
+/* What is gained and lost near a facet of another part: of the fractions on its side towards the
+   laser, and on its side away from it (1.f). */
 static void pair_sides(const band_job *job, const lrcsi_proximity_pair *pair, double towards,
                        double away, double *gain, double *loss)
 {
@@ -403,8 +403,9 @@ static void add_face_pair(band_job *job, const lrcsi_proximity_pair *pair)
     const uint32_t part = p->scene->facet_part[pair->facet];
     const uint32_t other = p->scene->facet_part[pair->other];
     const int up = job->view->facing[pair->other];
-    const double same = ldexp(p->scene->part[part].bounds.position_err, -p->exponent);
-    const double slack = lrcsi_proximity_slack_aligned(p, other) + LRCSI_PROXIMITY_ERR + same;
+    const double position_err = ldexp(p->scene->part[part].bounds.position_err, -p->exponent);
+    const double slack =
+        lrcsi_proximity_slack_aligned(p, other) + LRCSI_PROXIMITY_ERR + position_err;
     const double rim = lrcsi_proximity_slack(p, part, other) + 4 * p->proximity.reach[part];
     double gain = 1;
     double loss = 1;
