@@ -63,22 +63,25 @@ static int memory_limit_serves(const memory_case *s, unsigned char *memory, size
 }
 
 /* Tries every size; of those that need much, the first 1024 sizes, the last 128, every 127th
-   between, and all of those between which one suffices first. */
+   between or, if these are more than 1000, so many of them; and of those between which one
+   suffices first, all, or every 17th if they are more than 127. */
 static void check_memory_limit(const memory_case *s)
 {
     unsigned char *memory = malloc(s->need + MEMORY_CANARY);
     assert_non_null(memory);
+    const size_t stride = s->need / 1000 > 127 ? s->need / 1000 : 127;
     int served = 0;
     size_t step = 1;
     for (size_t size = 0; size <= s->need; size += step) {
         int serves = memory_limit_serves(s, memory, size, served);
         if (serves && !served) {
-            for (size_t less = size + 1 - step; less < size; less++) {
+            const size_t by = step > 127 ? 17 : 1;
+            for (size_t less = size + 1 - step; less < size; less += by) {
                 served = memory_limit_serves(s, memory, less, served);
             }
         }
         served = serves;
-        step = size < 1024 || size + 128 > s->need ? 1 : 127;
+        step = size < 1024 || size + 128 > s->need ? 1 : stride;
     }
     assert_true(served);
     free(memory);
