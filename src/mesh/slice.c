@@ -64,6 +64,14 @@ void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[
     *slice = kept;
 }
 
+void lrcsi_slice_cut_between(lrcsi_slice *slice, const double n[3], const double low[3],
+                             const double high[3], double limit)
+{
+    const double down[3] = {-n[0], -n[1], -n[2]};
+    lrcsi_slice_cut(slice, n, high, limit);
+    lrcsi_slice_cut(slice, down, low, limit);
+}
+
 /* The area: the length of the vector area about the first corner. */
 static double slice_area(const lrcsi_slice *slice)
 {

@@ -19,6 +19,11 @@ lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double
    the error that must not remove anything. */
 void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double limit);
 
+/* Keeps the part between two planes perpendicular to n, and beyond them to a distance in units of
+   n's length: n . (x - low) >= -limit and n . (x - high) <= limit. Rounding as above. */
+void lrcsi_slice_cut_between(lrcsi_slice *slice, const double n[3], const double low[3],
+                             const double high[3], double limit);
+
 /* The area of the polygon as a fraction, 0 .. 1, of that of the triangle, whose longest side is
    `longest` and whose area is `whole`: rounded up, and 1 if the triangle is too thin to decide. */
 double lrcsi_slice_fraction(const lrcsi_slice *slice, double whole, double longest);

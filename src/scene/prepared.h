@@ -204,6 +204,14 @@ static inline const double *lrcsi_prepared_corner(const lrcs_prepared *p, uint32
     return p->vertex[p->scene->facet[facet].corner[k]].x;
 }
 
+/* A facet's normal, of length 1 to within rounding. */
+static inline void lrcsi_prepared_unit_normal(const lrcs_prepared *p, uint32_t facet, double n[3])
+{
+    for (int k = 0; k < 3; k++) {
+        n[k] = p->normal[facet].high[k] / p->normal[facet].length;
+    }
+}
+
 /* The unit normals at a facet's corners, or NULL if it is flat. */
 static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, uint32_t facet)
 {

@@ -234,18 +234,13 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
     if (pair_is_apart(p, facet, other, slack, along)) {
         return (lrcsi_slice){.count = 0};
     }
-    const lrcsi_normal *normal = &p->normal[other];
     lrcsi_slice slice =
         lrcsi_slice_start(lrcsi_prepared_corner(p, facet, 0), lrcsi_prepared_corner(p, facet, 1),
                           lrcsi_prepared_corner(p, facet, 2));
+    const double *origin = lrcsi_prepared_corner(p, other, 0);
     double n[3];
-    double down[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = normal->high[k] / normal->length;
-        down[k] = -n[k];
-    }
-    lrcsi_slice_cut(&slice, n, lrcsi_prepared_corner(p, other, 0), along);
-    lrcsi_slice_cut(&slice, down, lrcsi_prepared_corner(p, other, 0), along);
+    lrcsi_prepared_unit_normal(p, other, n);
+    lrcsi_slice_cut_between(&slice, n, origin, origin, along);
     for (int side = 0; side < 3 && slice.count > 0; side++) {
         const double *a = lrcsi_prepared_corner(p, other, side);
         const double *b = lrcsi_prepared_corner(p, other, (side + 1) % 3);
@@ -258,26 +253,30 @@ static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
     return slice;
 }
 
-/* What of a slice is in front of the plane of a facet (side 1), or behind it (-1). */
-static lrcsi_slice slice_on_side(const lrcs_prepared *p, const lrcsi_slice *slice, uint32_t other,
-                                 int side)
+/* The fractions of a facet's area that a slice of it has in front of the plane of another facet and
+   behind it. */
+static lrcsi_sides_fraction slice_fractions(const lrcs_prepared *p, uint32_t facet,
+                                            const lrcsi_slice *slice, uint32_t other)
 {
-    lrcsi_slice part = *slice;
-    double beyond[3];
-    for (int k = 0; k < 3; k++) {
-        beyond[k] = -side * (p->normal[other].high[k] / p->normal[other].length);
-    }
-    lrcsi_slice_cut(&part, beyond, lrcsi_prepared_corner(p, other, 0), LRCSI_PROXIMITY_ERR);
-    return part;
+    const double *origin = lrcsi_prepared_corner(p, other, 0);
+    const double whole = 0.5 * p->normal[facet].length;
+    const double longest = lrcsi_proximity_longest(p, facet);
+    lrcsi_slice front = *slice;
+    lrcsi_slice back = *slice;
+    double n[3];
+    lrcsi_prepared_unit_normal(p, other, n);
+    const double down[3] = {-n[0], -n[1], -n[2]};
+    lrcsi_slice_cut(&front, down, origin, LRCSI_PROXIMITY_ERR);
+    lrcsi_slice_cut(&back, n, origin, LRCSI_PROXIMITY_ERR);
+    return (lrcsi_sides_fraction){lrcsi_slice_fraction(&front, whole, longest),
+                                  lrcsi_slice_fraction(&back, whole, longest)};
 }
 
-double lrcsi_proximity_fraction(const lrcs_prepared *p, uint32_t facet, uint32_t other,
-                                double slack, int side)
+lrcsi_sides_fraction lrcsi_proximity_fractions(const lrcs_prepared *p, uint32_t facet,
+                                               uint32_t other, double slack)
 {
     const lrcsi_slice slice = pair_slice(p, facet, other, slack, slack);
-    const lrcsi_slice part = slice_on_side(p, &slice, other, side);
-    return lrcsi_slice_fraction(&part, 0.5 * p->normal[facet].length,
-                                lrcsi_proximity_longest(p, facet));
+    return slice_fractions(p, facet, &slice, other);
 }
 
 int lrcsi_proximity_side_is_far(const lrcs_prepared *p, uint32_t facet, int side, uint32_t other,
@@ -285,22 +284,17 @@ int lrcsi_proximity_side_is_far(const lrcs_prepared *p, uint32_t facet, int side
 {
     const double *a = lrcsi_prepared_corner(p, facet, side);
     const double *b = lrcsi_prepared_corner(p, facet, (side + 1) % 3);
-    const lrcsi_normal *normal = &p->normal[facet];
     lrcsi_slice slice =
         lrcsi_slice_start(lrcsi_prepared_corner(p, other, 0), lrcsi_prepared_corner(p, other, 1),
                           lrcsi_prepared_corner(p, other, 2));
     double n[3][3]; /* normal to the facet; along the side; in the facet, perpendicular to it */
-    for (int k = 0; k < 3; k++) {
-        n[0][k] = normal->high[k] / normal->length;
-    }
+    lrcsi_prepared_unit_normal(p, facet, n[0]);
     lrcsi_vec3_between(a, b, n[1]);
     lrcsi_vec3_cross(n[0], n[1], n[2]);
     for (int i = 0; i < 3 && slice.count > 0; i++) {
-        const double down[3] = {-n[i][0], -n[i][1], -n[i][2]};
         const double square = lrcsi_vec3_dot(n[i], n[i]);
         if (square > LEAST_SQUARE) {
-            lrcsi_slice_cut(&slice, n[i], b, distance * sqrt(square));
-            lrcsi_slice_cut(&slice, down, a, distance * sqrt(square));
+            lrcsi_slice_cut_between(&slice, n[i], a, b, distance * sqrt(square));
         }
     }
     return slice.count == 0;
@@ -334,9 +328,7 @@ static double slack_along(const lrcs_prepared *p, uint32_t other, double slack,
     const uint32_t part = p->scene->facet_part[other];
     const double theirs = p->proximity.hausdorff[part];
     double n[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = p->normal[other].high[k] / p->normal[other].length;
-    }
+    lrcsi_prepared_unit_normal(p, other, n);
     return theirs > 0 && part_is_open(p, part)
                ? slack
                : lrcsi_min(slack, lrcsi_displacement_along(displacement, n) + theirs +
@@ -357,14 +349,9 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
-    const double whole = 0.5 * p->normal[facet].length;
-    const double longest = lrcsi_proximity_longest(p, facet);
-    const lrcsi_slice front = slice_on_side(p, &slice, other, 1);
-    const lrcsi_slice back = slice_on_side(p, &slice, other, -1);
-    const double fraction[2] = {lrcsi_slice_fraction(&front, whole, longest),
-                                lrcsi_slice_fraction(&back, whole, longest)};
+    const lrcsi_sides_fraction of = slice_fractions(p, facet, &slice, other);
     double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
-    if (!(fraction[0] > 0 || fraction[1] > 0)) {
+    if (!(of.front > 0 || of.back > 0)) {
         return LRCS_OK;
     }
     if (proximity->count % PAIRS_TAKEN == 0) {
@@ -374,9 +361,8 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
         }
         proximity->pair = proximity->pair ? proximity->pair : more;
     }
-    proximity->pair[proximity->count++] =
-        (lrcsi_proximity_pair){facet, other, fraction_float(fraction[0]),
-                               fraction_float(fraction[1]), fraction_float(rows)};
+    proximity->pair[proximity->count++] = (lrcsi_proximity_pair){
+        facet, other, fraction_float(of.front), fraction_float(of.back), fraction_float(rows)};
     return LRCS_OK;
 }
 

@@ -61,10 +61,15 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
    for these facets only. */
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *prepared, uint32_t facet);
 
-/* An upper bound of the fraction of a facet's area that is within `slack` of another facet and in
-   front of its plane (side 1) or behind it (-1). */
-double lrcsi_proximity_fraction(const lrcs_prepared *prepared, uint32_t facet, uint32_t other,
-                                double slack, int side);
+/* Fractions of a facet's area on both sides of a plane. */
+typedef struct lrcsi_sides_fraction {
+    double front, back;
+} lrcsi_sides_fraction;
+
+/* Upper bounds of the fractions of a facet's area that are within `slack` of another facet, and in
+   front of its plane or behind it. */
+lrcsi_sides_fraction lrcsi_proximity_fractions(const lrcs_prepared *prepared, uint32_t facet,
+                                               uint32_t other, double slack);
 
 /* Is it proved that a facet's side, from corner `side` to the next, is farther than this distance
    from another facet? */

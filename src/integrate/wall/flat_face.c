@@ -27,7 +27,6 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
         }
         const double projected = lrcsi_view_projected(view, f);
         const double hidden = lrcsi_max(0, projected - visible[f].low);
-        const int may_exceed = part->bounds.reach > 0 && lrcsi_face_border_sides(view, f) != 0;
         const double gain = projected * lrcsi_masked_gain_aligned(band, f);
         if (visible[f].low > most) {
             most = visible[f].low;
@@ -35,7 +34,7 @@ static lrcsi_flat_face flat_face_choose(const lrcsi_masked_band *band,
         }
         without[0] += lrcsi_min(hidden, projected * lrcsi_masked_gain(band, f));
         without[1] += lrcsi_min(visible[f].high, projected * lrcsi_masked_loss(band, f));
-        with[0] += may_exceed ? gain : lrcsi_min(hidden, gain);
+        with[0] += lrcsi_flat_face_exceeds(view, f) ? gain : lrcsi_min(hidden, gain);
         with[1] += lrcsi_min(visible[f].high, projected * lrcsi_masked_loss_aligned(band, f));
     }
     face.area = whole->face[number].area;

@@ -25,6 +25,14 @@ static inline const lrcsi_flat_face *lrcsi_flat_face_of(const lrcsi_flat_face *f
     return number != LRCS_NONE && face[number].facet != LRCS_NONE ? &face[number] : NULL;
 }
 
+/* May what the true face has in place of a facet on it lie beside the facet? */
+static inline int lrcsi_flat_face_exceeds(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_scene *scene = view->prepared->scene;
+    return scene->part[scene->facet_part[facet]].bounds.reach > 0 &&
+           lrcsi_face_border_sides(view, facet) != 0;
+}
+
 /* What is to be added to the visible area of a facet: 0 for all but one of a face. */
 static inline double lrcsi_flat_face_area(const lrcsi_flat_face *face, const lrcsi_view *view,
                                           uint32_t facet)

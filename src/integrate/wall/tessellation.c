@@ -157,9 +157,7 @@ static lrcsi_tessellation face_error(const lrcsi_tessellation_input *in, uint32_
     const double value = (1 + area_err) * d.value_max;
     const double hidden =
         lrcsi_patch_fractions_of(incidence, facet, in->visible, in->band, 0).hidden;
-    const int may_exceed = lrcsi_patch_part(p, facet)->bounds.reach > 0 &&
-                           lrcsi_face_border_sides(in->view, facet) != 0;
-    const double most = may_exceed ? HUGE_VAL : hidden;
+    const double most = lrcsi_flat_face_exceeds(in->view, facet) ? HUGE_VAL : hidden;
     double either = point + area_err * value;
     if (facet == face->facet) {
         const double projected = incidence->projected * (1 - incidence->error);

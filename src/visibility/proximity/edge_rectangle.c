@@ -132,10 +132,8 @@ lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
     const double *along = box->along;
     const double left[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
-    const double right[3] = {along[1], -along[0], 0};
     slice = lrcsi_slice_start(point[0], point[1], point[2]);
-    lrcsi_slice_cut(&slice, left, box->a, box->half_width);
-    lrcsi_slice_cut(&slice, right, box->a, box->half_width);
+    lrcsi_slice_cut_between(&slice, left, box->a, box->a, box->half_width);
     lrcsi_slice_cut(&slice, along, box->b, box->beyond);
     lrcsi_slice_cut(&slice, back, box->a, box->before);
     return slice;

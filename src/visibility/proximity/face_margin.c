@@ -151,7 +151,6 @@ static void face_part_add(const face_job *job, uint32_t facet, double slack, fac
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
-    const double down[3] = {-up[0], -up[1], -up[2]};
     double height[3];
     for (int k = 0; k < 3; k++) {
         double from[3];
@@ -163,8 +162,7 @@ static void face_part_add(const face_job *job, uint32_t facet, double slack, fac
         return;
     }
     lrcsi_slice slice = lrcsi_slice_start(corner[0], corner[1], corner[2]);
-    lrcsi_slice_cut(&slice, up, job->face.centre, slack);
-    lrcsi_slice_cut(&slice, down, job->face.centre, slack);
+    lrcsi_slice_cut_between(&slice, up, job->face.centre, job->face.centre, slack);
     for (int i = 0; i < slice.count; i++) {
         double x[3];
         lrcsi_view_coordinates(view, slice.x[i], x);

@@ -383,16 +383,17 @@ static void facet_fractions(band_job *job, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* What is gained and lost near a facet of another part: of the fractions on its side towards the
-   laser, and on its side away from it (1.f). */
-static void pair_sides(const band_job *job, const lrcsi_proximity_pair *pair, double towards,
-                       double away, double *gain, double *loss)
+/* What is gained and lost near a facet of another part (1.f). Given: the fractions in front of its
+   plane and behind it. */
+static void pair_sides(const band_job *job, const lrcsi_proximity_pair *pair,
+                       lrcsi_sides_fraction of, double *gain, double *loss)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t other = p->scene->facet_part[pair->other];
     const int both = p->proximity.hausdorff[other] > 0 && lrcsi_proximity_openings(p, other) > 0;
-    *gain = both ? away + towards : away;
-    *loss = towards;
+    const int up = job->view->facing[pair->other] > 0; /* its front is towards the laser */
+    *gain = both ? of.front + of.back : (up ? of.back : of.front);
+    *loss = up ? of.front : of.back;
 }
 
 /* Adds what of a facet on a known flat face is near a facet of another part that does not pierce
@@ -402,7 +403,7 @@ static void add_face_pair(band_job *job, const lrcsi_proximity_pair *pair)
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t part = p->scene->facet_part[pair->facet];
     const uint32_t other = p->scene->facet_part[pair->other];
-    const int up = job->view->facing[pair->other];
+    const unsigned border = lrcsi_face_border_sides(job->view, pair->facet);
     const double position_err = ldexp(p->scene->part[part].bounds.position_err, -p->exponent);
     const double slack =
         lrcsi_proximity_slack_aligned(p, other) + LRCSI_PROXIMITY_ERR + position_err;
@@ -410,13 +411,14 @@ static void add_face_pair(band_job *job, const lrcsi_proximity_pair *pair)
     double gain = 1;
     double loss = 1;
     if (lrcsi_meter_take(job->meter, 1)) {
-        pair_sides(job, pair, lrcsi_proximity_fraction(p, pair->facet, pair->other, slack, up),
-                   lrcsi_proximity_fraction(p, pair->facet, pair->other, slack, -up), &gain, &loss);
+        pair_sides(job, pair, lrcsi_proximity_fractions(p, pair->facet, pair->other, slack), &gain,
+                   &loss);
     }
     job->band->gain_aligned[pair->facet] += gain;
     job->band->loss_aligned[pair->facet] += loss;
     for (int k = 0; k < 3; k++) {
-        if (!lrcsi_proximity_side_is_far(p, pair->facet, k, pair->other, rim)) {
+        if (((border >> k) & 1) != 0 &&
+            !lrcsi_proximity_side_is_far(p, pair->facet, k, pair->other, rim)) {
             job->band->sides[pair->facet].side[k] = sides_near.side[k];
         }
     }
@@ -459,12 +461,12 @@ static void add_pairs(band_job *job)
             add_unproved_pair(job, pair->facet, other, unproved, on_face);
             continue;
         }
-        const double front = (double)pair->front_fraction;
-        const double back = (double)pair->back_fraction;
+        const lrcsi_sides_fraction of = {(double)pair->front_fraction, (double)pair->back_fraction};
         double gain;
         double loss;
-        pair_sides(job, pair, facing > 0 ? front : back, facing > 0 ? back : front, &gain, &loss);
-        add_fractions(job->band, pair->facet, front + back, gain, loss, lrcsi_part_set_of(other));
+        pair_sides(job, pair, of, &gain, &loss);
+        add_fractions(job->band, pair->facet, of.front + of.back, gain, loss,
+                      lrcsi_part_set_of(other));
         job->band->rows[pair->facet] += (double)pair->row_fraction;
         if (on_face) {
             add_face_pair(job, pair);

@@ -186,13 +186,10 @@ static lrcsi_slice slice_near_plane(const lrcsi_view *view, const lrcsi_slice *s
     const double wide = slack + 4 * lrcsi_edge_rectangle_facet_err(view, other);
     lrcsi_slice near = *slice;
     double n[3];
-    double down[3];
     for (int k = 0; k < 3; k++) {
         n[k] = lrcsi_vec3_dot(view->R[k], p->normal[other].high) / p->normal[other].length;
-        down[k] = -n[k];
     }
-    lrcsi_slice_cut(&near, n, corner, wide);
-    lrcsi_slice_cut(&near, down, corner, wide);
+    lrcsi_slice_cut_between(&near, n, corner, corner, wide);
     return near;
 }
 
