@@ -300,6 +300,45 @@ static void capsules_contain_what_is_below_them(void **state)
     }
 }
 
+/* Pairs of segments: any; parallel; rulings of one cone, whose lines meet. If the sum of
+   their radii is 1/100 less than the distance of the segments, they are apart; if it is slightly
+   more, they are not. The distance: the least of points along the one from the other. */
+static void capsules_are_apart_if_their_segments_are(void **state)
+{
+    (void)state;
+    enum { PAIRS = 3000, POINTS = 2000 };
+    for (int pair = 0; pair < PAIRS; pair++) {
+        lrcsi_tree_capsule c[2];
+        for (int i = 0; i < 2; i++) {
+            for (int k = 0; k < 3; k++) {
+                c[i].end[0][k] = next_number() - 0.5;
+                c[i].end[1][k] = pair % 3 == 2 ? 0.3 * c[i].end[0][k] : next_number() - 0.5;
+                if (pair % 3 == 1 && i == 1) {
+                    c[1].end[1][k] = c[1].end[0][k] + 0.5 * (c[0].end[1][k] - c[0].end[0][k]);
+                }
+            }
+            c[i].radius = 0;
+        }
+        long double distance = HUGE_VAL;
+        for (int n = 0; n <= POINTS; n++) {
+            double x[3];
+            for (int k = 0; k < 3; k++) {
+                x[k] = c[0].end[0][k] + (c[0].end[1][k] - c[0].end[0][k]) * n / POINTS;
+            }
+            distance = fminl(distance, outside_capsule(&c[1], x));
+        }
+        if (distance > 0.1L) { /* so that sampling changes it by less than 1/100 */
+            c[0].radius = (double)(0.99L * distance) * 0.25;
+            c[1].radius = (double)(0.99L * distance) * 0.75;
+            assert_true(lrcsi_tree_capsules_apart(&c[0], &c[1]));
+            assert_true(lrcsi_tree_capsules_apart(&c[1], &c[0]));
+            c[1].radius = (double)distance - c[0].radius * 0.99;
+            assert_false(lrcsi_tree_capsules_apart(&c[0], &c[1]));
+            assert_false(lrcsi_tree_capsules_apart(&c[1], &c[0]));
+        }
+    }
+}
+
 /* Facets of 2^-47 with sides along one direction, far apart in a plane perpendicular to it: points
    are beyond the ends of segments that are so short that rounding turns them. */
 static void capsules_of_tiny_facets_contain_what_is_below_them(void **state)
@@ -583,6 +622,7 @@ int main(void)
         cmocka_unit_test(the_join_finds_all_pairs_of_boxes_that_meet_once_each),
         cmocka_unit_test(slabs_leave_out_no_neighbours),
         cmocka_unit_test(capsules_contain_what_is_below_them),
+        cmocka_unit_test(capsules_are_apart_if_their_segments_are),
         cmocka_unit_test(capsules_of_tiny_facets_contain_what_is_below_them),
         cmocka_unit_test(capsules_leave_out_nothing_that_meets),
         cmocka_unit_test(capsules_tell_apart_long_facets_that_cross),

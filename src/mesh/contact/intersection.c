@@ -33,7 +33,7 @@ enum { MANY_PAIRS = 16, SOME_LEAVES = 8, LEAVES_APART = 4 };
    others, the rest of them are compared by slabs too; if slabs then separate at least NODES_APART
    nodes from it, the next leaf is compared by slabs from the start. The slabs of the tree are
    filled once such leaves have intersected FILL_COST times as many others as there are leaves. */
-enum { MANY_LEAVES = 16, NODES_APART = 8, FILL_COST = 8 };
+enum { MANY_LEAVES = 16, NODES_APART = 8, FILL_COST = 2 };
 
 /* 8 u: see slab_separates; heights are within 4 u, and what is added to them rounds by 2 u. */
 #define CORNER_FILTER (8.0 * LRCSI_U)

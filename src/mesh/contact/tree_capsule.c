@@ -15,10 +15,13 @@
    of at most 20 u S: their sum bounds the distance from the segment, and CAPSULE_ERR S both errors.
    If |v|^2 exceeds LEAST_LENGTH, what underflows in |v x f|^2 adds less than u S.
 
-   Two lines with directions v and w, through a and b, are |(v x w) . (b - a)| / |v x w| apart.
-   Errors: v, w and b - a have errors of 1 u in each component, so each component of v x w has one
-   of at most 4 u |v| |w|. So the product has one of at most 24 u |v| |w| |b - a|, and |v x w| one
-   of at most 8 u |v| |w| + 3 u |v x w|. */
+   Two capsules are apart if there is a vector n such that n . x is larger on all of one segment than
+   on all of the other, by more than |n| times the sum of the radii. If there is any, the vector
+   between the nearest points of both segments is one. The proof holds for whatever vector it is
+   made with, so the errors of that one do not matter. Errors of the heights: x - a, from the first
+   end a of one segment, has an error of u in each component, and its product with n one of at most
+   5 u |n| |x - a|; HEIGHT_ERR times the sum of the three lengths bounds them together. If |n|^2
+   exceeds LEAST_NORMAL, what underflows adds less than that. */
 #include "mesh/contact/tree_capsule.h"
 
 #include <math.h>
@@ -32,9 +35,9 @@
 enum { CAPSULE_LANES = LRCSI_TREE_LANES, CAPSULE_POINTS = 3 * CAPSULE_LANES };
 
 #define CAPSULE_ERR  (64.0 * LRCSI_U)
-#define PRODUCT_ERR  (32.0 * LRCSI_U)
+#define HEIGHT_ERR   (16.0 * LRCSI_U)
 #define LEAST_LENGTH 0x1p-450 /* squared, of a segment */
-#define LEAST_CROSS  0x1p-900 /* squared, of a product of two */
+#define LEAST_NORMAL 0x1p-900 /* squared, of a vector between two */
 
 /* Balls that a capsule is to contain. */
 typedef struct capsule_balls {
@@ -207,20 +210,52 @@ void lrcsi_tree_fill_capsules(const lrcs_point *vertex, const lrcs_facet *facet,
     tree->has_capsules = 1;
 }
 
+/* A number as a position along a segment. */
+static double on_segment(double t)
+{
+    return lrcsi_max(0.0, lrcsi_min(1.0, t));
+}
+
+/* Roughly the vector between the points of two segments that are nearest to each other (Ericson,
+   Real-Time Collision Detection, 2005, 5.1.9). Given: the vectors along both, and between their
+   first ends. */
+static void nearest_vector(const double v[3], const double w[3], const double between[3],
+                           double n[3])
+{
+    const double vv = lrcsi_vec3_dot(v, v);
+    const double ww = lrcsi_vec3_dot(w, w);
+    const double vw = lrcsi_vec3_dot(v, w);
+    const double v_between = lrcsi_vec3_dot(v, between);
+    const double w_between = lrcsi_vec3_dot(w, between);
+    const double det = vv * ww - vw * vw;
+    double s = det > 0.0 ? on_segment((v_between * ww - vw * w_between) / det) : 0.0;
+    const double t = on_segment((vw * s - w_between) / ww);
+    s = on_segment((v_between + vw * t) / vv);
+    for (int k = 0; k < 3; k++) {
+        n[k] = between[k] + t * w[k] - s * v[k];
+    }
+}
+
 int lrcsi_tree_capsules_apart(const lrcsi_tree_capsule *a, const lrcsi_tree_capsule *b)
 {
     double v[3];
     double w[3];
     double between[3];
-    double product[3];
+    double last[3]; /* from the first end of a to the last of b */
+    double n[3];
+    if (!(a->radius + b->radius < HUGE_VAL)) {
+        return 0;
+    }
     lrcsi_vec3_between(a->end[0], a->end[1], v);
     lrcsi_vec3_between(b->end[0], b->end[1], w);
     lrcsi_vec3_between(a->end[0], b->end[0], between);
-    lrcsi_vec3_cross(v, w, product);
-    const double square = lrcsi_vec3_dot(product, product);
-    const double lengths = sqrt(lrcsi_vec3_dot(v, v) * lrcsi_vec3_dot(w, w));
-    const double apart = fabs(lrcsi_vec3_dot(product, between)) -
-                         PRODUCT_ERR * lengths * sqrt(lrcsi_vec3_dot(between, between));
-    const double needed = (a->radius + b->radius) * (sqrt(square) + PRODUCT_ERR * lengths);
-    return square > LEAST_CROSS && apart > needed * LRCSI_OUTWARD_NANO;
+    lrcsi_vec3_between(a->end[0], b->end[1], last);
+    nearest_vector(v, w, between, n);
+    const double square = lrcsi_vec3_dot(n, n);
+    const double far = lrcsi_max(0.0, lrcsi_vec3_dot(n, v));
+    const double near = lrcsi_min(lrcsi_vec3_dot(n, between), lrcsi_vec3_dot(n, last));
+    const double size = sqrt(lrcsi_vec3_dot(v, v)) + sqrt(lrcsi_vec3_dot(between, between)) +
+                        sqrt(lrcsi_vec3_dot(last, last));
+    const double needed = a->radius + b->radius + HEIGHT_ERR * size;
+    return square > LEAST_NORMAL && near - far > needed * sqrt(square) * LRCSI_OUTWARD_NANO;
 }

@@ -18,8 +18,8 @@ void lrcsi_tree_fill_capsules(const lrcs_point *vertex, const lrcs_facet *facet,
 lrcsi_tree_capsule lrcsi_tree_lane_capsule(const lrcsi_tree *tree, int level, uint32_t b,
                                            uint32_t lane);
 
-/* Are two capsules proved to be disjoint, because the lines through their segments are farther
-   apart than the sum of their radii? Parallel ones never are. */
+/* Are two capsules proved to be disjoint, because their segments are farther apart than the sum of
+   their radii? */
 int lrcsi_tree_capsules_apart(const lrcsi_tree_capsule *a, const lrcsi_tree_capsule *b);
 
 #endif
