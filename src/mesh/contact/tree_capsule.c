@@ -15,13 +15,13 @@
    of at most 20 u S: their sum bounds the distance from the segment, and CAPSULE_ERR S both errors.
    If |v|^2 exceeds LEAST_LENGTH, what underflows in |v x f|^2 adds less than u S.
 
-   Two capsules are apart if there is a vector n such that n . x is larger on all of one segment than
-   on all of the other, by more than |n| times the sum of the radii. If there is any, the vector
-   between the nearest points of both segments is one. The proof holds for whatever vector it is
-   made with, so the errors of that one do not matter. Errors of the heights: x - a, from the first
-   end a of one segment, has an error of u in each component, and its product with n one of at most
-   5 u |n| |x - a|; HEIGHT_ERR times the sum of the three lengths bounds them together. If |n|^2
-   exceeds LEAST_NORMAL, what underflows adds less than that. */
+   Two capsules are apart if there is a vector n such that n . x is larger on all of one segment
+   than on all of the other, by more than |n| times the sum of the radii. If there is any, the
+   vector between the nearest points of both segments is one. The proof holds for whatever vector
+   it is made with, so the errors of that one do not matter. Errors of the heights: x - a, from the
+   first end a of one segment, has an error of u in each component, and its product with n one of
+   at most 5 u |n| |x - a|; HEIGHT_ERR times the sum of the three lengths bounds them together. If
+   |n|^2 exceeds LEAST_NORMAL, what underflows adds less than that. */
 #include "mesh/contact/tree_capsule.h"
 
 #include <math.h>
