@@ -68,7 +68,8 @@ static uint32_t check_facet(uint32_t facet)
     const lrcsi_crossings none = {.facet = LRCS_NONE};
     uint32_t must = 0;
     uint32_t known = 0;
-    int along;
+    lrcsi_crossing_candidates candidates;
+    int along[2];
     lrcsi_crossings_find(search, facet, NULL, &crossings);
     assert_int_equal(crossings.facet, facet);
     for (uint32_t i = 0; i < classification.events.count; i++) {
@@ -83,7 +84,15 @@ static uint32_t check_facet(uint32_t facet)
         known += found;
     }
     assert_int_equal(crossings.count, known); /* nothing but events */
-    assert_int_equal(lrcsi_crossings_possible(search, facet, NULL, &along), known > 0);
+    candidates.state = LRCSI_CANDIDATES_NOT_SOUGHT;
+    for (int i = 0; i < 2; i++) { /* from the grid, and from candidates */
+        candidates.examined = i == 0 ? 0 : UINT32_MAX;
+        assert_int_equal(lrcsi_crossings_possible(search, facet, NULL, &candidates, &along[i]),
+                         known > 0);
+        assert_int_equal(candidates.state,
+                         i == 0 ? LRCSI_CANDIDATES_NOT_SOUGHT : LRCSI_CANDIDATES_KNOWN);
+    }
+    assert_true(known > 0 || along[0] == along[1]);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         uint32_t component = classification.component[f];
         int of_it = 0;
@@ -134,6 +143,9 @@ static void all_of_many_crossings_are_found(void **state)
     }
     look_along(0, 0, 1);
     assert_int_equal(lrcsi_crossings_make(&classification.search, &work, &crossings), LRCS_OK);
+    for (uint32_t m = 0; m < view.prepared->meshlets.count; m++) {
+        lrcsi_boxes_open(&classification.search.boxes, m);
+    }
     assert_true(check_facet(0) > 60);
     assert_true(check_facet(1) > 60);
 }
@@ -143,13 +155,17 @@ static void a_spent_meter_leaves_crossings_open(void **state)
     (void)state;
     uint64_t random = 7;
     int along;
+    lrcsi_crossing_candidates candidates;
     scene_tangle(&random, 10, 14);
     look_along(0, 0, 1);
     assert_int_equal(lrcsi_crossings_make(&classification.search, &work, &crossings), LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         lrcsi_meter meter = {.limit = 0};
         if (casts_exactly(f)) {
-            assert_true(lrcsi_crossings_possible(&classification.search, f, &meter, &along));
+            candidates.state = LRCSI_CANDIDATES_NOT_SOUGHT;
+            candidates.examined = f % 2 == 0 ? 0 : UINT32_MAX;
+            assert_true(
+                lrcsi_crossings_possible(&classification.search, f, &meter, &candidates, &along));
             lrcsi_crossings_find(&classification.search, f, &meter, &crossings);
             assert_int_equal(crossings.facet, LRCS_NONE);
         }

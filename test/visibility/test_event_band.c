@@ -70,10 +70,10 @@ static void outline_areas(double *outside, double *inside)
 }
 
 /* Is it an event edge that the search for a facet does not exclude? */
-static int is_near(const lrcsi_edge_search *where, uint32_t facet, uint32_t event)
+static int is_near(const lrcsi_band_search *where, uint32_t event)
 {
     int line = 0;
-    return !lrcsi_band_excludes(&bands, facet, where, event, &line);
+    return !lrcsi_band_excludes(&bands, where, event, &line);
 }
 
 /* Adds up the bands of both facets of the plate, as areas in projection. */
@@ -84,12 +84,12 @@ static void band_areas(int correspondence, double *gain, double *loss)
         if (scene.facet_part[f] != PLATE) {
             continue;
         }
-        const lrcsi_edge_search where = lrcsi_band_search(&bands, f);
-        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
+        const lrcsi_band_search where = lrcsi_band_search_make(&bands, f);
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where.edges);
         for (uint32_t e = 0; e < bands.events.count; e++) {
             lrcsi_event_band band;
-            int found = is_near(&where, f, e) &&
-                        lrcsi_event_band_make(&bands, &at, e, correspondence, &band);
+            int found =
+                is_near(&where, e) && lrcsi_event_band_make(&bands, &at, e, correspondence, &band);
             assert_true(!found || bands.events.part[e] == BALL); /* it has no inside to be seen */
             if (found) {
                 assert_true(band.gain >= 0 && band.loss >= 0 && band.area <= 1);
@@ -197,12 +197,12 @@ static void check_sides(int near_diagonal)
         if (scene.facet_part[f] != PLATE) {
             continue;
         }
-        const lrcsi_edge_search where = lrcsi_band_search(&bands, f);
-        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where);
+        const lrcsi_band_search where = lrcsi_band_search_make(&bands, f);
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&bands, f, &where.edges);
         lrcsi_near_sides near = {{{1, 0}, {1, 0}, {1, 0}}};
         unsigned sides = 0;
         for (uint32_t e = 0; e < bands.events.count; e++) {
-            if (is_near(&where, f, e)) {
+            if (is_near(&where, e)) {
                 lrcsi_event_sides(&bands, &at, e, &near);
             }
         }

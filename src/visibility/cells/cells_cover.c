@@ -358,13 +358,42 @@ static int has_no_contact(const lrcsi_marks *listed, const lrcsi_cells_surface *
            !lrcsi_marked(&surface->adjoining, facet);
 }
 
+/* The facet of the surface that certainly covers a point, to within w, or NULL. *near is where the
+   search begins, in both directions: the place of the facet that was found for the point before.
+   Adjacent facets are near each other in the list, and so are edges near each other in theirs. */
+static const lrcsi_cells_facet *surface_facet_at(const lrcsi_division *d,
+                                                 const lrcsi_cells_surface *surface,
+                                                 const double point[2], double w, uint32_t *near)
+{
+    const uint32_t count = surface->facet_count;
+    const uint32_t start = *near;
+    const uint32_t farthest = start + 1 > count - start ? start + 1 : count - start;
+    for (uint32_t i = 0; i < 2 * farthest; i++) {
+        const uint32_t step = (i + 1) / 2;
+        const uint32_t at = i % 2 == 0 ? start + step : start - step; /* below 0 it wraps around */
+        if (at >= count) {
+            continue;
+        }
+        const lrcsi_cells_facet *f = &d->facet[surface->facet[at]];
+        const double inside = f->degenerate ? HUGE_VAL : 2 * f->err + w;
+        if (lrcsi_line_at(f->side[0], point[0], point[1]) > inside &&
+            lrcsi_line_at(f->side[1], point[0], point[1]) > inside &&
+            lrcsi_line_at(f->side[2], point[0], point[1]) > inside) {
+            *near = at;
+            return f;
+        }
+    }
+    return NULL;
+}
+
 /* Is the part of an edge in the cell behind the surface, which covers the cell? If the surface
    is one facet, both ends of the part are compared with its plane. Otherwise, if a facet of the
    edge has no contact with the surface, one point of the part is compared with the facet that
-   covers it. Given: low, the lowest z of the surface in the cell. */
+   covers it. Given: low, the lowest z of the surface in the cell; *near: as above. */
 static int segment_behind(const lrcsi_division *d, const lrcsi_marks *listed,
                           const lrcsi_cells_surface *surface, const lrcsi_cell *cell,
-                          const lrcsi_clip_sides *s, const lrcsi_cells_segment *e, double low)
+                          const lrcsi_clip_sides *s, const lrcsi_cells_segment *e, double low,
+                          uint32_t *near)
 {
     double w = e->err + s->tolerance;
     double z_err = 2 * e->z_err;
@@ -402,18 +431,13 @@ static int segment_behind(const lrcsi_division *d, const lrcsi_marks *listed,
             return 0;
         }
     }
-    for (uint32_t i = 0; i < surface->facet_count; i++) {
-        const lrcsi_cells_facet *f = &d->facet[surface->facet[i]];
-        double inside = f->degenerate ? HUGE_VAL : 2 * f->err + w;
-        if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > inside &&
-            lrcsi_line_at(f->side[1], middle[0], middle[1]) > inside &&
-            lrcsi_line_at(f->side[2], middle[0], middle[1]) > inside) {
-            double range[2];
-            lrcsi_cells_facet_z(f, middle, w, range);
-            return middle[2] + z_err < range[0];
-        }
+    const lrcsi_cells_facet *f = surface_facet_at(d, surface, middle, w, near);
+    double range[2];
+    if (!f) {
+        return 0;
     }
-    return 0;
+    lrcsi_cells_facet_z(f, middle, w, range);
+    return middle[2] + z_err < range[0];
 }
 
 /* Is a facet that certainly covers the sample behind the surface there? */
@@ -457,10 +481,11 @@ void lrcsi_cells_cull(lrcsi_blocks *b, lrcsi_cell *cell, const lrcsi_clip_sides 
     }
     cell->facet_count = kept;
     kept = 0;
+    uint32_t near = 0;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         if (!segment_is_unlisted(d, &sample->listed, e) &&
-            (e->contact || !segment_behind(d, &sample->listed, surface, cell, s, e, low))) {
+            (e->contact || !segment_behind(d, &sample->listed, surface, cell, s, e, low, &near))) {
             cell->segment[kept++] = cell->segment[i];
         }
     }

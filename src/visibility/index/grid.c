@@ -94,15 +94,13 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
 /* The errors of the sides are increased by the rounding errors of what is computed from them
    (points at t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate
    between the side's and the window's; and by the rounding of boxes, 2^-24 of the latter. */
-void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near)
+void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const lrcsi_view_vertex *corner, int count)
 {
     const lrcsi_grid *grid = walk->grid;
-    const lrcsi_view_vertex *point = grid->view->point;
     double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
-    rounding += near * grid->view->scale;
     walk->sides = count == 2 ? 1 : count;
     for (int k = 0; k < walk->sides; k++) {
-        walk->side[k] = lrcsi_view_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
+        walk->side[k] = lrcsi_view_segment_make(&corner[k], &corner[(k + 1) % count],
                                                 grid->view->scale, rounding);
     }
 }
@@ -118,7 +116,10 @@ void lrcsi_grid_walk_facet(const lrcsi_grid *grid, const lrcsi_view_box *box, ui
     const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, box);
     lrcsi_grid_walk_begin(grid, all, walk);
     if (all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS) {
-        lrcsi_grid_walk_limit(walk, grid->view->prepared->scene->facet[facet].corner, 3, 0);
+        const uint32_t *corner = grid->view->prepared->scene->facet[facet].corner;
+        const lrcsi_view_vertex *point = grid->view->point;
+        const lrcsi_view_vertex corners[3] = {point[corner[0]], point[corner[1]], point[corner[2]]};
+        lrcsi_grid_walk_limit(walk, corners, 3);
     }
 }
 
@@ -149,7 +150,8 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
         lrcsi_grid_row row;
         lrcsi_grid_walk_begin(grid, buckets, &walk);
         if (buckets.y1 - buckets.y0 > 1) {
-            lrcsi_grid_walk_limit(&walk, ends, 2, 0);
+            const lrcsi_view_vertex corners[2] = {view->point[ends[0]], view->point[ends[1]]};
+            lrcsi_grid_walk_limit(&walk, corners, 2);
         }
         while (lrcsi_grid_walk_next(&walk, &row)) {
             listed += grid_put(grid, row.y, row.x0, row.x1, i);
@@ -180,6 +182,18 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
+/* About how many buckets a facet meets. Averaged over all places, a convex figure meets as many
+   unit squares as its area, its width, its height and 1 add up to; a box has whole buckets. */
+static uint64_t facet_buckets(const lrcsi_grid *grid, const lrcsi_boxes *boxes, uint32_t facet)
+{
+    const lrcsi_grid_rect box = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, facet));
+    const double wide = box.x1 - box.x0;
+    const double high = box.y1 - box.y0;
+    const double unit = grid->view->scale * grid->buckets_per_unit;
+    const double area = lrcsi_view_projected(grid->view, facet) * unit * unit;
+    return (uint64_t)lrcsi_min(wide * high, area + wide + high - 1);
+}
+
 /* A grid of one bucket lists each facet once, so the loop ends. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
@@ -193,8 +207,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
             end = boxes->state[m] == LRCSI_BOXES_FACETS ? end : start;
             for (uint32_t f = start; f < end; f++) {
                 if (lrcsi_view_casts(grid->view, f)) {
-                    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
-                    filled += (uint64_t)(buckets.x1 - buckets.x0) * (buckets.y1 - buckets.y0);
+                    filled += facet_buckets(grid, boxes, f);
                     facets++;
                 }
             }
@@ -241,18 +254,35 @@ static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
     return *needed ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Is any of these buckets marked? */
-static int needed_any(const lrcsi_grid *grid, const unsigned char *needed, lrcsi_grid_rect buckets)
+/* Does a walk meet a marked bucket? */
+static int needed_any(const unsigned char *needed, lrcsi_grid_walk *walk)
 {
-    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
-        const unsigned char *row = needed + (size_t)y * grid->size;
-        for (uint32_t x = buckets.x0; x < buckets.x1; x++) { /* few: memchr would cost more */
-            if (row[x]) {
+    lrcsi_grid_row row;
+    while (lrcsi_grid_walk_next(walk, &row)) {
+        const unsigned char *bucket = needed + (size_t)row.y * walk->grid->size;
+        for (uint32_t x = row.x0; x < row.x1; x++) { /* few: memchr would cost more */
+            if (bucket[x]) {
                 return 1;
             }
         }
     }
     return 0;
+}
+
+static int meshlet_is_needed(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
+                             const unsigned char *needed, uint32_t meshlet)
+{
+    lrcsi_grid_walk walk;
+    lrcsi_grid_walk_begin(grid, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet]), &walk);
+    return needed_any(needed, &walk);
+}
+
+static int facet_is_needed(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
+                           const unsigned char *needed, uint32_t facet)
+{
+    lrcsi_grid_walk walk;
+    lrcsi_grid_walk_facet(grid, lrcsi_boxes_facet(boxes, facet), facet, &walk);
+    return needed_any(needed, &walk);
 }
 
 /* Lists the facets that meet buckets to be read, in order, and makes their boxes. Status: LRCS_OK;
@@ -267,16 +297,14 @@ static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, const unsig
     for (uint32_t start = 0; start < count && list; start += LRCSI_MESHLET_FACETS) {
         uint32_t meshlet = start / LRCSI_MESHLET_FACETS;
         if (boxes->state[meshlet] == LRCSI_BOXES_NONE ||
-            (needed &&
-             !needed_any(grid, needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
+            (needed && !meshlet_is_needed(grid, boxes, needed, meshlet))) {
             continue;
         }
         lrcsi_boxes_open(boxes, meshlet);
         uint32_t end = lrcsi_meshlet_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
-                (!needed ||
-                 needed_any(grid, needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f))))) {
+                (!needed || facet_is_needed(grid, boxes, needed, f))) {
                 list[listed++] = f;
             }
         }
@@ -295,10 +323,11 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_grid_rect buckets =
-            lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
-        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
-            listed += grid_put(grid, y, buckets.x0, buckets.x1, facet[i]);
+        lrcsi_grid_walk walk;
+        lrcsi_grid_row row;
+        lrcsi_grid_walk_facet(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]), facet[i], &walk);
+        while (lrcsi_grid_walk_next(&walk, &row)) {
+            listed += grid_put(grid, row.y, row.x0, row.x1, facet[i]);
         }
     }
     return listed;

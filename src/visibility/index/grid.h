@@ -51,7 +51,7 @@ typedef struct lrcsi_grid_walk {
     const lrcsi_grid *grid;
     lrcsi_grid_rect left;       /* the rows that are left */
     int sides;                  /* 0: whole rows */
-    lrcsi_view_segment side[3]; /* of the polygon, in the units of boxes */
+    lrcsi_view_segment side[4]; /* of the polygon, in the units of boxes */
 } lrcsi_grid_walk;
 
 static inline void lrcsi_grid_walk_begin(const lrcsi_grid *grid, lrcsi_grid_rect rect,
@@ -62,9 +62,9 @@ static inline void lrcsi_grid_walk_begin(const lrcsi_grid *grid, lrcsi_grid_rect
     walk->sides = 0;
 }
 
-/* Limits the rows of a walk to the buckets within the distance `near` of a facet (count 3) or an
-   edge (count 2). Rows and columns on the border extend to infinity. */
-void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const uint32_t *corner, int count, double near);
+/* Limits the rows of a walk to the buckets that a convex polygon may meet, given by its two to four
+   corners in order; two: a segment. Rows and columns on the border extend to infinity. */
+void lrcsi_grid_walk_limit(lrcsi_grid_walk *walk, const lrcsi_view_vertex *corner, int count);
 
 /* A walk over the buckets that a facet of a given box may meet. */
 void lrcsi_grid_walk_facet(const lrcsi_grid *grid, const lrcsi_view_box *box, uint32_t facet,
@@ -157,7 +157,7 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 /* Bytes at most for a grid with so many buckets and entries. */
 size_t lrcsi_grid_need(size_t buckets, size_t entries);
 
-/* Makes an empty grid coarser until the facets whose boxes are made meet at most
+/* Makes an empty grid coarser until the facets whose boxes are made meet at most about
    LRCSI_GRID_FACET_BUCKETS buckets on average. Returns 1 if the grid has changed. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 
@@ -172,10 +172,10 @@ typedef struct lrcsi_grid_readers {
     const lrcsi_facet_signs *joinable; /* visibility/uniform/classify.h; with region */
 } lrcsi_grid_readers;
 
-/* A grid of the facets that can hide something, in at most as many buckets as another grid: it
-   lists each of them at most LRCSI_GRID_FACET_BUCKETS times on average. Lists are complete in the
-   buckets of the readers' boxes; with readers NULL, in all buckets. It opens the meshlets of the
-   readers and of all facets that it lists. Status: as above. */
+/* A grid of the facets that can hide something, in at most as many buckets as another grid: each is
+   listed in the buckets that it may meet, at most LRCSI_GRID_FACET_BUCKETS times on average. Lists
+   are complete in the buckets of the readers' boxes; with readers NULL, in all buckets. It opens
+   the meshlets of the readers and of all facets that it lists. Status: as above. */
 int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
                       lrcs_work *work, lrcsi_grid *grid);
 

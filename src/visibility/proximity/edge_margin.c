@@ -164,6 +164,20 @@ static int event_is_behind_receiver(lrcsi_event_bands *bands, const lrcsi_margin
 
 static const lrcsi_segment_part nowhere = {1, 0};
 
+/* Is another edge farther than `slack` away along an axis of the view? */
+static int edge_is_beside(const lrcsi_view *view, const lrcsi_edge_margin *m,
+                          const lrcsi_edge *other, double slack)
+{
+    const double *p = view->point[other->low].x;
+    const double *q = view->point[other->high].x;
+    int beside = 0;
+    for (int k = 0; k < 2; k++) {
+        beside |= lrcsi_min(p[k], q[k]) - slack > lrcsi_max(m->a[k], m->b[k]) ||
+                  lrcsi_max(p[k], q[k]) + slack < lrcsi_min(m->a[k], m->b[k]);
+    }
+    return beside;
+}
+
 /* The part of an edge near which (c) an event edge of another part, or (d) another one of Q, may
    come within its slack of N. For another part the slack of both parts is tested, which is larger
    than needed (its own Hausdorff distance, or twice that, for aligned points), with the errors of
@@ -180,6 +194,9 @@ static lrcsi_segment_part event_near(lrcsi_event_bands *bands, const lrcsi_edge_
         slack += 2 * p->proximity.reach[part] + LRCSI_PROXIMITY_ERR;
     } else if (part != m->part) {
         slack += lrcsi_proximity_slack(p, receiver->part, part) + receiver->order_err;
+    }
+    if (edge_is_beside(bands->view, m, edge, slack)) {
+        return nowhere;
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, receiver->facet, edge, slack);

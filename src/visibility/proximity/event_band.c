@@ -171,28 +171,43 @@ static double event_slack(const lrcsi_event_bands *bands, uint32_t facet, uint32
 /* How far from a facet in projection event edges matter, of parts with this Hausdorff distance. A
    slack is at most e_P + 2 k_Q or 2 e_P, and 2 e_P + 2 k_Q at the sides of a facet; the error of an
    order is at most k_Q / 2. */
-static double largest_slack(const lrcsi_event_bands *bands, uint32_t facet, double hausdorff)
+static double largest_slack(double reach, double hausdorff)
 {
-    const double reach = bands->view->prepared->proximity.reach[facet_part(bands, facet)];
     return 2 * reach + 3 * hausdorff + 2 * LRCSI_PROXIMITY_ERR;
 }
 
-lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet)
+lrcsi_band_search lrcsi_band_search_make(const lrcsi_event_bands *bands, uint32_t facet)
 {
-    const double most = bands->view->prepared->proximity.max_hausdorff;
-    return lrcsi_edge_search_make(bands->view, &bands->events.grid, facet,
-                                  largest_slack(bands, facet, most));
+    const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
+    const double reach = proximity->reach[facet_part(bands, facet)];
+    const double near = largest_slack(reach, proximity->max_hausdorff);
+    return (lrcsi_band_search){lrcsi_edge_search_make(bands->view, facet, near), reach};
 }
 
-int lrcsi_band_excludes(const lrcsi_event_bands *bands, uint32_t facet,
-                        const lrcsi_edge_search *where, uint32_t event, int *line)
+lrcsi_band_search lrcsi_band_search_around(const lrcsi_event_bands *bands, const uint32_t *facet,
+                                           uint32_t count, lrcsi_grid_walk *walk)
+{
+    const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
+    lrcsi_band_search search = {.reach = 0};
+    for (uint32_t i = 0; i < count; i++) {
+        search.reach = lrcsi_max(search.reach, proximity->reach[facet_part(bands, facet[i])]);
+    }
+    search.edges =
+        lrcsi_edge_search_around(bands->view, &bands->events.grid, facet, count,
+                                 largest_slack(search.reach, proximity->max_hausdorff), walk);
+    return search;
+}
+
+int lrcsi_band_excludes(const lrcsi_event_bands *bands, const lrcsi_band_search *where,
+                        uint32_t event, int *line)
 {
     const lrcsi_view *view = bands->view;
     const lrcs_prepared *p = view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[bands->events.edge[event]];
     const double hausdorff = p->proximity.hausdorff[bands->events.part[event]];
-    return lrcsi_edge_search_excludes(where, view->point[edge->low].x, view->point[edge->high].x,
-                                      largest_slack(bands, facet, hausdorff), line);
+    return lrcsi_edge_search_excludes(&where->edges, view->point[edge->low].x,
+                                      view->point[edge->high].x,
+                                      largest_slack(where->reach, hausdorff), line);
 }
 
 int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet)

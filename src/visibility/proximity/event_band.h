@@ -8,7 +8,8 @@
 #include "base/meter.h"
 #include "mesh/box.h"
 #include "scene/proximity.h"
-#include "visibility/proximity/edge_search.h"
+#include "visibility/index/edge_search.h"
+#include "visibility/proximity/edge_rectangle.h"
 #include "visibility/proximity/part_order.h"
 #include "visibility/proximity/proximity_events.h"
 
@@ -38,13 +39,23 @@ enum lrcsi_correspondence {
 /* Is an event edge a rim inside the outline of its part? */
 int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event);
 
-/* Where to look for the event edges that may be near a facet. */
-lrcsi_edge_search lrcsi_band_search(const lrcsi_event_bands *bands, uint32_t facet);
+/* Where to look for the event edges that may be near facets. */
+typedef struct lrcsi_band_search {
+    lrcsi_edge_search edges;
+    double reach; /* the largest of their parts */
+} lrcsi_band_search;
 
-/* Is an event edge that such a search meets too far from the facet, for its part? *line: as for
+/* For the event edges near a facet. */
+lrcsi_band_search lrcsi_band_search_make(const lrcsi_event_bands *bands, uint32_t facet);
+
+/* For those near any of several facets. The walk meets all of them. */
+lrcsi_band_search lrcsi_band_search_around(const lrcsi_event_bands *bands, const uint32_t *facet,
+                                           uint32_t count, lrcsi_grid_walk *walk);
+
+/* Is an event edge too far from the facets of a search, for its part? *line: as for
    lrcsi_edge_search_excludes. */
-int lrcsi_band_excludes(const lrcsi_event_bands *bands, uint32_t facet,
-                        const lrcsi_edge_search *where, uint32_t event, int *line);
+int lrcsi_band_excludes(const lrcsi_event_bands *bands, const lrcsi_band_search *where,
+                        uint32_t event, int *line);
 
 /* The sector of a straight wall that a facet lies on, in view coordinates: see event_band.c, 7. */
 typedef struct lrcsi_band_sector {
@@ -59,7 +70,7 @@ typedef struct lrcsi_band_sector {
 /* What the bands of a facet depend on, beside the event edges. */
 typedef struct lrcsi_band_facet {
     uint32_t facet;
-    const lrcsi_edge_search *where; /* lrcsi_band_search */
+    const lrcsi_edge_search *where; /* of its lrcsi_band_search */
     int inside;                     /* lrcsi_band_sees_inside */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight */

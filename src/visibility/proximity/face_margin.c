@@ -119,10 +119,8 @@ typedef struct end_answer {
 
 typedef struct face_job {
     lrcsi_event_bands *bands;
-    lrcsi_classification *classification;
+    const lrcsi_classification *classification;
     lrcs_work *work;
-    lrcsi_grid facets; /* for queries about the faces' facets; made when first needed */
-    int facets_tried, facets_made;
     lrcsi_face_frame face;
     face_part *part;            /* of each part */
     uint32_t *near, near_count; /* the parts with facets near the plane, for (e) */
@@ -309,34 +307,16 @@ static int facet_may_cover(const lrcsi_view *view, uint32_t facet, const double 
     return covers;
 }
 
-/* Makes the grid for queries, if there is memory for it. */
-static void facets_make(face_job *job)
-{
-    const lrcsi_view *view = job->bands->view;
-    const uint32_t count = view->prepared->scene->facet_count;
-    lrcsi_classification *c = job->classification;
-    unsigned char *reader = lrcsi_work_take(job->work, count, 1);
-    job->facets_tried = 1;
-    for (uint32_t f = 0; f < count && reader; f++) {
-        reader[f] = lrcsi_face_has_facet(view, f) ? 1 : 0;
-    }
-    const lrcsi_grid_readers readers = {.undecided = reader};
-    job->facets_made = reader && lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers,
-                                                   job->work, &job->facets) == LRCS_OK;
-}
-
 /* (f): an answer of visibility/uniform/query.h for the point half of w beyond the middle of the
    edge. */
 static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
 {
     const lrcsi_view *view = job->bands->view;
+    const lrcsi_grid *facets = job->classification->facets;
     double x[2];
     double at[2];
     double point[3];
-    if (!job->facets_tried) {
-        facets_make(job);
-    }
-    if (!job->facets_made) {
+    if (!facets) {
         return LRCSI_QUERY_NO_ANSWER;
     }
     for (int i = 0; i < 2; i++) {
@@ -349,16 +329,16 @@ static int margin_visibility(face_job *job, const lrcsi_edge_margin *m)
     }
     const double here[3] = {x[0], x[1], 0};
     const lrcsi_view_box box = lrcsi_view_box_round(view, here, here);
-    lrcsi_grid_rect buckets = lrcsi_grid_buckets(&job->facets, &box);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(facets, &box);
     lrcsi_grid_items items;
     int answer = LRCSI_QUERY_NO_ANSWER;
-    while (lrcsi_grid_next_row(&job->facets, &buckets, &items)) {
+    while (lrcsi_grid_next_row(facets, &buckets, &items)) {
         const int counted = lrcsi_meter_take(job->bands->meter, (uint64_t)items.to - items.from);
         for (uint32_t i = items.from; i < items.to && counted; i++) {
-            const uint32_t f = job->facets.item[i];
+            const uint32_t f = facets->item[i];
             if (lrcsi_face_of(view, f) == job->face.number && facet_may_cover(view, f, x) &&
                 answer == LRCSI_QUERY_NO_ANSWER) {
-                answer = lrcsi_query_point(&job->facets, f, point, job->bands->meter);
+                answer = lrcsi_query_point(facets, f, point, job->bands->meter);
             }
         }
     }
@@ -544,9 +524,6 @@ static int cut_area(face_job *job, uint32_t part, face_area *sum)
                            job->face.plane_err, &cut, &order_err)) {
         return 0;
     }
-    if (!job->facets_tried) {
-        facets_make(job); /* it stays when the polygon is released */
-    }
     const size_t mark = job->work->used;
     const double wide =
         8 * cut.k + 4 * p->proximity.reach[job->face.part] + 64 * LRCSI_PROXIMITY_ERR;
@@ -622,15 +599,13 @@ static int face_has_margins(const face_job *job)
 
 size_t lrcsi_face_margins_need(const lrcs_prepared *p)
 {
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
-                                 lrcsi_work_bytes(p->scene->part_count, sizeof(face_part)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(uint32_t)));
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(p->scene->part_count, sizeof(face_part)),
+                                 lrcsi_work_bytes(p->scene->part_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->vertex_count, sizeof(end_answer)));
-    need = lrcsi_work_add(need, lrcsi_cut_polygon_need(p));
-    return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
+    return lrcsi_work_add(need, lrcsi_cut_polygon_need(p));
 }
 
-void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+void lrcsi_face_margins_make(lrcsi_event_bands *bands, const lrcsi_classification *classification,
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces)
 {
     const lrcs_scene *scene = bands->view->prepared->scene;

@@ -40,7 +40,7 @@ static inline int lrcsi_edge_faces_hold(const lrcsi_edge_faces *faces, uint32_t 
    its sign; elsewhere it is between the loss and the gain of visibility/proximity/outline.h. Also
    returned: faces[event]. Where steps or memory run out, fewer margins are known. Scratch memory is
    released. */
-void lrcsi_face_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+void lrcsi_face_margins_make(lrcsi_event_bands *bands, const lrcsi_classification *classification,
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces);
 
 /* Scratch memory for it. */

@@ -67,7 +67,7 @@ size_t lrcsi_masked_band_need(const lrcs_prepared *p)
     size_t facets = p->scene->facet_count;
     size_t need =
         lrcsi_work_add(lrcsi_work_blocks(3, facets, 1), lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
+    return p->proximity.reach ? need : 0;
 }
 
 int lrcsi_masked_band_make(const lrcsi_proximity_band *whole, lrcs_work *work,
@@ -89,19 +89,14 @@ int lrcsi_masked_band_make(const lrcsi_proximity_band *whole, lrcs_work *work,
 void lrcsi_masked_band_find(lrcsi_masked_band *band, const lrcsi_visible_area *visible,
                             lrcsi_meter *meter, lrcs_work *work)
 {
-    lrcsi_classification *c = band->whole->classification;
+    const lrcsi_classification *c = band->whole->classification;
     size_t mark = work->used;
     uint32_t count = c->view->prepared->scene->facet_count;
     unsigned char *candidate = lrcsi_work_take(work, count, 1);
     uint32_t *group = lrcsi_work_take(work, count, sizeof *group);
-    lrcsi_grid facets;
-    if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
-        const lrcsi_grid_readers readers = {.undecided = candidate};
+    if (candidate && group && c->facets && mark_candidates(band, visible, candidate) > 0) {
         lrcsi_proximity_band_join(band->whole, candidate, 1, group);
-        if (lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, work, &facets) ==
-            LRCS_OK) {
-            find_hidden_groups(band, candidate, group, &facets, meter);
-        }
+        find_hidden_groups(band, candidate, group, c->facets, meter);
     }
     work->used = mark;
     find_hidden_regions(band, visible);

@@ -104,8 +104,8 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "scene/proximity.h"
-#include "visibility/index/marks.h"
 #include "visibility/proximity/event_band.h"
+#include "visibility/proximity/near_events.h"
 
 typedef struct band_job {
     const lrcsi_view *view;
@@ -113,9 +113,8 @@ typedef struct band_job {
     lrcsi_event_bands bands;
     lrcsi_edge_faces *faces; /* event: the faces that include its margin */
     lrcsi_wall_margins walls;
-    lrcsi_box curved;         /* of all facets of curved parts, in the view */
-    lrcsi_marks considered;   /* events: those that the search for the facet has met */
-    uint32_t *listed;         /* events: those near the facet */
+    lrcsi_box curved; /* of all facets of curved parts, in the view */
+    lrcsi_near_events near;
     lrcsi_part_set *unproved; /* facet: the parts of which add_unproved has added the fraction */
     lrcsi_part_set unproved_aligned; /* likewise, where points are aligned, of the facet at hand */
     lrcsi_proximity_band *band;      /* to be filled */
@@ -168,50 +167,16 @@ static int pierces_face(const band_job *job, uint32_t facet, uint32_t other)
            lrcsi_face_has_facet(job->view, facet);
 }
 
-/* Lists the event edges near a facet: job->listed[0..*count). Those of its own part are left out
-   unless the laser sees its inside (event_band.c, 3). Returns 0 if the limit of steps is reached.
-   */
-static int find_events(band_job *job, uint32_t facet, const lrcsi_edge_search *where,
-                       uint32_t *count)
-{
-    const lrcsi_event_bands *bands = &job->bands;
-    const uint32_t left_out = lrcsi_band_sees_inside(bands, facet)
-                                  ? LRCS_NONE
-                                  : job->view->prepared->scene->facet_part[facet];
-    const lrcsi_grid *grid = &bands->events.grid;
-    lrcsi_grid_walk walk = where->rows;
-    lrcsi_grid_row row;
-    int line = 0;
-    *count = 0;
-    lrcsi_marks_clear(&job->considered, bands->events.count);
-    while (lrcsi_grid_walk_next(&walk, &row)) {
-        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, row.y, row.x0, row.x1);
-        if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
-            return 0;
-        }
-        for (uint32_t i = items.from; i < items.to; i++) {
-            const uint32_t event = grid->item[i];
-            if (bands->events.part[event] == left_out || lrcsi_marked(&job->considered, event)) {
-                continue;
-            }
-            job->considered.entry[event] = job->considered.number;
-            if (!lrcsi_band_excludes(bands, facet, where, event, &line)) {
-                job->listed[(*count)++] = event;
-            }
-        }
-    }
-    return 1;
-}
-
-/* Adds the fractions near these event edges, where points correspond by the map. */
-static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count)
+/* Adds the fractions near the listed event edges, where points correspond by the map. */
+static void add_mapped(band_job *job, const lrcsi_band_facet *at)
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     lrcsi_wall_margin *margin = &band->margin[facet];
     const uint32_t own = job->view->prepared->scene->facet_part[facet];
+    const uint32_t count = job->near.count;
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t part = job->bands.events.part[job->listed[i]];
+        const uint32_t part = job->bands.events.part[job->near.listed[i]];
         lrcsi_event_band fractions;
         if (band->gain[facet] >= 1 && band->loss[facet] >= 1 &&
             lrcsi_part_set_without(band->parts[facet], own) != 0) {
@@ -219,12 +184,14 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
                its own part alone tell that no other part's matter (clear_sectors.h of
                integrate/wall) */
             for (uint32_t k = i; k < count; k++) {
-                band->parts[facet] |= lrcsi_part_set_of(job->bands.events.part[job->listed[k]]);
+                band->parts[facet] |=
+                    lrcsi_part_set_of(job->bands.events.part[job->near.listed[k]]);
             }
             margin->gain = margin->loss = 1;
             return;
         }
-        if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_MAPPED, &fractions)) {
+        if (!lrcsi_event_band_make(&job->bands, at, job->near.listed[i], LRCSI_MAPPED,
+                                   &fractions)) {
             continue;
         }
         (void)add_unproved(job, facet, part, fractions.unproved);
@@ -234,7 +201,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at, uint32_t count
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
             band->rows[facet] += fractions.rows;
-            if (!lrcsi_wall_margins_add(&job->walls, facet, job->listed[i])) {
+            if (!lrcsi_wall_margins_add(&job->walls, facet, job->near.listed[i])) {
                 margin->gain += fractions.gain;
                 margin->loss += fractions.loss;
             }
@@ -251,30 +218,32 @@ static double aligned_open(const lrcsi_view *view, uint32_t facet, double unprov
     return 3 * unproved / fabs(lrcsi_view_incidence(view, facet).cos_theta) * LRCSI_OUTWARD_NANO;
 }
 
-/* Adds the fractions near these event edges, where points are aligned, and finds the free sides. */
-static void add_aligned(band_job *job, const lrcsi_band_facet *at, uint32_t count)
+/* Adds the fractions near the listed event edges, where points are aligned, and finds the free
+   sides. */
+static void add_aligned(band_job *job, const lrcsi_band_facet *at)
 {
     lrcsi_proximity_band *band = job->band;
     const uint32_t facet = at->facet;
     const uint32_t face = lrcsi_face_of(job->view, facet);
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < job->near.count; i++) {
         lrcsi_event_band fractions;
-        lrcsi_event_sides(&job->bands, at, job->listed[i], &band->sides[facet]);
+        lrcsi_event_sides(&job->bands, at, job->near.listed[i], &band->sides[facet]);
         if (face != LRCS_NONE &&
-            (lrcsi_edge_faces_hold(&job->faces[job->listed[i]], face) ||
-             pierces_face(job, facet, job->bands.events.part[job->listed[i]]))) {
+            (lrcsi_edge_faces_hold(&job->faces[job->near.listed[i]], face) ||
+             pierces_face(job, facet, job->bands.events.part[job->near.listed[i]]))) {
             continue; /* its area is that of a margin */
         }
-        if (!lrcsi_event_band_make(&job->bands, at, job->listed[i], LRCSI_ALIGNED, &fractions)) {
+        if (!lrcsi_event_band_make(&job->bands, at, job->near.listed[i], LRCSI_ALIGNED,
+                                   &fractions)) {
             continue;
         }
-        const uint32_t part = job->bands.events.part[job->listed[i]];
+        const uint32_t part = job->bands.events.part[job->near.listed[i]];
         const int adds = fractions.unproved > 0 && lrcsi_part_set_add(&job->unproved_aligned, part);
         const double open = adds ? aligned_open(job->view, facet, fractions.unproved) : 0;
         band->gain_aligned[facet] += fractions.gain + open;
         band->loss_aligned[facet] += fractions.loss + open;
     }
-    lrcsi_event_rims(&job->bands, at, job->listed, count, band->rim);
+    lrcsi_event_rims(&job->bands, at, job->near.listed, job->near.count, band->rim);
 }
 
 /* Begins the fractions for aligned points, unless they cannot be known. The facet must lie on a
@@ -340,44 +309,66 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
                                p->proximity.reach[p->scene->facet_part[facet]] > 0);
 }
 
-/* 1. Nothing is near a flat facet that no curved part overlaps in projection;
-   2. event edges near the facet, listed once for both correspondences of points;
-   3. grazing incidence.
-   Given: on a known flat face, what of it is near other parts that do not pierce the face. */
+/* Is a facet flat, and beside all curved parts in projection? Then nothing is near it. */
+static int is_beside_curved(const band_job *job, uint32_t facet)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    if (p->proximity.reach[p->scene->facet_part[facet]] > 0) {
+        return 0;
+    }
+    const lrcsi_band_search search = lrcsi_band_search_make(&job->bands, facet);
+    const lrcsi_edge_search *where = &search.edges;
+    return where->low[0] > job->curved.high[0] || where->low[1] > job->curved.high[1] ||
+           where->high[0] < job->curved.low[0] || where->high[1] < job->curved.low[1];
+}
+
+/* 1. Event edges near the facet, listed once for both correspondences of points; 2. grazing
+   incidence. Given: those near its meshlet; on a known flat face, what of it is near other parts
+   that do not pierce the face. */
 static void facet_fractions(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[p->scene->facet_part[facet]];
-    const lrcsi_edge_search where = lrcsi_band_search(&job->bands, facet);
     const int on_face = is_on_known_face(job, facet);
-    if (reach == 0 && /* 1 */
-        (where.low[0] > job->curved.high[0] || where.low[1] > job->curved.high[1] ||
-         where.high[0] < job->curved.low[0] || where.high[1] < job->curved.low[1])) {
-        return;
-    }
-    uint32_t count; /* 2 */
-    const int found = find_events(job, facet, &where, &count);
+    const lrcsi_band_search where = lrcsi_band_search_make(&job->bands, facet);
+    const int found = lrcsi_near_events_of_facet(&job->near, facet, &where); /* 1 */
     job->unproved_aligned = 0;
     const int aligned = on_face || begin_aligned(job, facet);
     if (!found) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
         job->band->gain_aligned[facet] = -1;
-    } else if (count > 0) {
-        const lrcsi_band_facet at = lrcsi_band_facet_make(&job->bands, facet, &where);
-        add_mapped(job, &at, count);
+    } else if (job->near.count > 0) {
+        const lrcsi_band_facet at = lrcsi_band_facet_make(&job->bands, facet, &where.edges);
+        add_mapped(job, &at);
         if (aligned) {
-            add_aligned(job, &at, count);
+            add_aligned(job, &at);
         }
     }
     if (found && on_face) {
         add_face_rim(job, facet);
     }
-    if (reach > 0 && /* 3 */
+    if (reach > 0 && /* 2 */
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[p->scene->facet_part[facet]] + LRCSI_VIEW_COS_ERR) {
         add_both(job->band, facet, 1, LRCSI_PART_SET_ALL);
         job->band->gain_aligned[facet] = on_face ? -1 : job->band->gain_aligned[facet];
+    }
+}
+
+/* Those of the facets of a meshlet that matter and that something may be near. */
+static void meshlet_fractions(band_job *job, uint32_t start, uint32_t end)
+{
+    uint32_t facet[LRCSI_MESHLET_FACETS];
+    uint32_t count = 0;
+    for (uint32_t f = start; f < end; f++) {
+        if (facet_matters(job->view, f) && !is_beside_curved(job, f)) {
+            facet[count++] = f;
+        }
+    }
+    lrcsi_near_events_of_meshlet(&job->near, facet, count);
+    for (uint32_t i = 0; i < count; i++) {
+        facet_fractions(job, facet[i]);
     }
 }
 
@@ -492,9 +483,10 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     const size_t walls = lrcsi_wall_margins_need(p);
     need = lrcsi_work_add(need, faces > walls ? faces : walls);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_margin)));
+    need = lrcsi_work_add(need, lrcsi_classify_facets_need(p));
     const size_t events = lrcsi_proximity_events_most(p);
     need = lrcsi_work_add(need, lrcsi_work_bytes(events, sizeof(lrcsi_edge_faces)));
-    return lrcsi_work_add(need, lrcsi_work_blocks(2, events, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_near_events_need(p));
 }
 
 /* Completes the fractions of a facet beside the margins on its wall. Each is a sum of at most two
@@ -513,7 +505,7 @@ static void margin_finish(const lrcsi_proximity_band *band, uint32_t facet)
    1. the events in a grid, and the depth order of parts (lrcsi_event_bands_make);
    2. margins on flat faces (lrcsi_face_margins_make); facets near those of other parts (add_pairs);
    3. for each facet that matters: event edges near it, with their margins on straight walls, and
-      grazing incidence (facet_fractions);
+      grazing incidence (meshlet_fractions);
    4. the fractions beside those margins; mismatch, gain, loss and rows are limited to 1.
       gain_aligned and loss_aligned may exceed it: their users compare the areas that they stand for
       with the facet's. */
@@ -525,12 +517,10 @@ static int all_fractions(band_job *job, lrcs_work *work)
     if (status != LRCS_OK) {
         return status;
     }
-    job->considered.entry =
-        lrcsi_work_take_zero(work, job->bands.events.count, sizeof *job->considered.entry);
-    job->listed = lrcsi_work_take(work, job->bands.events.count, sizeof *job->listed);
+    status = lrcsi_near_events_make(&job->bands, work, &job->near);
     job->faces = lrcsi_work_take(work, job->bands.events.count, sizeof *job->faces);
     job->unproved = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *job->unproved);
-    if (!job->considered.entry || !job->listed || !job->faces || !job->unproved) {
+    if (status != LRCS_OK || !job->faces || !job->unproved) {
         return LRCS_E_MEMORY;
     }
     lrcsi_face_margins_make(&job->bands, band->classification, work, band->face, job->faces);
@@ -554,10 +544,13 @@ static int all_fractions(band_job *job, lrcs_work *work)
     add_pairs(job); /* 2 */
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         band->gain_aligned[f] = is_on_known_face(job, f) ? band->gain_aligned[f] : -1;
-        if (facet_matters(job->view, f)) {
-            facet_fractions(job, f); /* 3 */
-        }
-        margin_finish(band, f); /* 4 */
+    }
+    for (uint32_t m = 0; m < p->meshlets.count; m++) { /* 3 */
+        const uint32_t start = m * LRCSI_MESHLET_FACETS;
+        meshlet_fractions(job, start, lrcsi_meshlet_end(start, p->scene->facet_count));
+    }
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) { /* 4 */
+        margin_finish(band, f);
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
         band->gain[f] = lrcsi_min(1, band->gain[f]);
         band->loss[f] = lrcsi_min(1, band->loss[f]);
@@ -599,6 +592,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     uint32_t facets = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_proximity_band m = {.classification = classification};
+    lrcsi_classify_facets(classification, work);
     m.mismatch = lrcsi_work_take_zero(work, facets, sizeof *m.mismatch);
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
@@ -620,6 +614,7 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
+        classification->facets = NULL; /* it was in this memory */
         return status;
     }
     work->used = kept;

@@ -547,20 +547,6 @@ static void margin_facets_compare(lrcsi_wall_margins *job, const lrcsi_edge_marg
 
 /* --- is the wall visible beside the edge? ----------------------------------------------------- */
 
-/* Makes the grid for queries, if there is memory for it. */
-static void wall_facets_make(lrcsi_wall_margins *job)
-{
-    const lrcs_scene *scene = job->bands->view->prepared->scene;
-    lrcsi_classification *c = job->classification;
-    job->facets_tried = 1;
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        job->reader[f] = c->undecided[f] && facet_applies(job, f);
-    }
-    const lrcsi_grid_readers readers = {.undecided = job->reader};
-    job->facets_made = lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, job->work,
-                                         &job->facets) == LRCS_OK;
-}
-
 /* The intersection of two parts. */
 static lrcsi_segment_part part_common(lrcsi_segment_part one, lrcsi_segment_part two)
 {
@@ -587,18 +573,16 @@ static double longest_in_facet(const lrcsi_wall_margins *job, lrcsi_segment_part
 static int wall_visibility(lrcsi_wall_margins *job, const lrcsi_edge_margin *m, double t)
 {
     const lrcsi_view *view = job->bands->view;
+    const lrcsi_classification *c = job->classification;
     double x[2];
-    if (!job->facets_tried) {
-        wall_facets_make(job);
-    }
     for (int i = 0; i < 2; i++) {
         x[i] = m->a[i] + t * (m->b[i] - m->a[i]) + 0.5 * m->width * m->outward[i];
     }
-    for (uint32_t i = 0; i < job->facet_count && job->facets_made; i++) {
+    for (uint32_t i = 0; i < job->facet_count && c->facets; i++) {
         double point[3];
         const uint32_t f = job->facet[i].facet;
-        if (job->reader[f] && lrcsi_view_point_above(view, f, x, point)) {
-            return lrcsi_query_point(&job->facets, f, point, job->bands->meter);
+        if (c->undecided[f] && facet_applies(job, f) && lrcsi_view_point_above(view, f, x, point)) {
+            return lrcsi_query_point(c->facets, f, point, job->bands->meter);
         }
     }
     return LRCSI_QUERY_NO_ANSWER;
@@ -816,31 +800,28 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(margin_facets_most(p), sizeof(double)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->proximity.count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_unproved)));
-    return lrcsi_work_add(need, lrcsi_grid_facets_need(p));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+    return lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_wall_unproved)));
 }
 
-int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+int lrcsi_wall_margins_make(lrcsi_event_bands *bands, const lrcsi_classification *classification,
                             lrcs_work *work, lrcsi_wall_margin *margin, lrcsi_wall_margins *job)
 {
     const uint32_t facets = bands->view->prepared->scene->facet_count;
     const uint32_t most = margin_facets_most(bands->view->prepared);
     const lrcsi_proximity *proximity = &bands->view->prepared->proximity;
-    *job = (lrcsi_wall_margins){
-        .bands = bands, .classification = classification, .work = work, .margin = margin};
+    *job = (lrcsi_wall_margins){.bands = bands, .classification = classification, .margin = margin};
     job->event = lrcsi_work_take(work, bands->events.count, sizeof *job->event);
     job->facet = lrcsi_work_take(work, most, sizeof *job->facet);
     job->order = lrcsi_work_take(work, most, sizeof *job->order);
     job->end_max = lrcsi_work_take(work, most, sizeof *job->end_max);
     job->reached.entry = lrcsi_work_take_zero(work, facets, sizeof *job->reached.entry);
-    job->reader = lrcsi_work_take(work, facets, 1);
     job->pairs = lrcsi_work_take_zero(work, facets, 1);
     job->unproved = lrcsi_work_take_zero(work, facets, sizeof *job->unproved);
     job->first_pair = lrcsi_work_take(work, facets, sizeof *job->first_pair);
     job->next_pair = lrcsi_work_take(work, proximity->count, sizeof *job->next_pair);
     if (!job->event || !job->facet || !job->order || !job->end_max || !job->reached.entry ||
-        !job->reader || !job->pairs || !job->unproved || !job->first_pair || !job->next_pair) {
+        !job->pairs || !job->unproved || !job->first_pair || !job->next_pair) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < bands->events.count; i++) {

@@ -47,8 +47,7 @@ typedef struct lrcsi_margin_facet lrcsi_margin_facet;
 /* The search for margins, facet by facet. */
 typedef struct lrcsi_wall_margins {
     lrcsi_event_bands *bands;
-    lrcsi_classification *classification;
-    lrcs_work *work;
+    const lrcsi_classification *classification;
     uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
                                          next one of the same facet; LRCS_NONE: no further one */
     unsigned char *pairs;             /* facet: what is left of them */
@@ -63,10 +62,7 @@ typedef struct lrcsi_wall_margins {
     int plane_count;                           /* so many of them are made: the others when they are
                                                   needed */
     uint32_t facet_count;
-    lrcsi_marks reached;   /* facets: those of the edge under examination */
-    unsigned char *reader; /* facet: whether queries may be made at it */
-    lrcsi_grid facets;     /* for queries; made when first needed */
-    int facets_tried, facets_made;
+    lrcsi_marks reached; /* facets: those of the edge under examination */
 } lrcsi_wall_margins;
 
 /* Scratch memory for it. */
@@ -74,7 +70,7 @@ size_t lrcsi_wall_margins_need(const lrcs_prepared *prepared);
 
 /* Begins the search, given room for the margins of all facets, which become 0. It stays in the work
    area. Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_wall_margins_make(lrcsi_event_bands *bands, lrcsi_classification *classification,
+int lrcsi_wall_margins_make(lrcsi_event_bands *bands, const lrcsi_classification *classification,
                             lrcs_work *work, lrcsi_wall_margin *margin,
                             lrcsi_wall_margins *margins);
 

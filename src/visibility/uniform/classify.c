@@ -187,6 +187,29 @@ static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcs
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
+/* Decides which facets of an opened meshlet are undecided. */
+static void meshlet_decide(lrcsi_classification *c, uint32_t meshlet, lrcsi_meter *meter)
+{
+    const lrcs_prepared *p = c->view->prepared;
+    const uint32_t start = meshlet * LRCSI_MESHLET_FACETS;
+    const uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+    lrcsi_crossing_candidates candidates;
+    candidates.state = LRCSI_CANDIDATES_NOT_SOUGHT;
+    candidates.examined = 0;
+    for (uint32_t f = start; f < end; f++) {
+        if (!lrcsi_view_casts(c->view, f)) {
+            continue;
+        }
+        int along_side = 0;
+        c->undecided[f] = intersection_divides(c->view, f) ||
+                          lrcsi_crossings_possible(&c->search, f, meter, &candidates, &along_side);
+        c->undecided_count += c->undecided[f];
+        if (c->undecided[f] || along_side || p->intersections.met[f]) {
+            lrcsi_facet_signs_clear(&c->joinable, f);
+        }
+    }
+}
+
 /* Decides which facets are undecided: none of a meshlet without contacts that no event can cross;
    in other meshlets each facet is tested. If the facets to be tested are large, the grid of events
    is made again with larger buckets. */
@@ -208,19 +231,8 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
                                   &c->search.grid);
     }
     for (uint32_t m = 0; m < p->meshlets.count && status == LRCS_OK; m++) {
-        uint32_t end = lrcsi_meshlet_end(m * LRCSI_MESHLET_FACETS, p->scene->facet_count);
-        for (uint32_t f = m * LRCSI_MESHLET_FACETS;
-             f < end && c->search.boxes.state[m] == LRCSI_BOXES_FACETS; f++) {
-            if (!lrcsi_view_casts(c->view, f)) {
-                continue;
-            }
-            int along_side = 0;
-            c->undecided[f] = intersection_divides(c->view, f) ||
-                              lrcsi_crossings_possible(&c->search, f, meter, &along_side);
-            c->undecided_count += c->undecided[f];
-            if (c->undecided[f] || along_side || p->intersections.met[f]) {
-                lrcsi_facet_signs_clear(&c->joinable, f);
-            }
+        if (c->search.boxes.state[m] == LRCSI_BOXES_FACETS) {
+            meshlet_decide(c, m, meter);
         }
     }
     return status;
@@ -287,4 +299,22 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     }
     *classification = c;
     return LRCS_OK;
+}
+
+size_t lrcsi_classify_facets_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(1, sizeof(lrcsi_grid)),
+                          lrcsi_grid_facets_need(prepared));
+}
+
+void lrcsi_classify_facets(lrcsi_classification *classification, lrcs_work *work)
+{
+    lrcsi_event_search *search = &classification->search;
+    size_t mark = work->used;
+    lrcsi_grid *facets = lrcsi_work_take(work, 1, sizeof *facets);
+    if (facets && lrcsi_grid_facets(&search->grid, &search->boxes, NULL, work, facets) == LRCS_OK) {
+        classification->facets = facets;
+    } else {
+        work->used = mark;
+    }
 }

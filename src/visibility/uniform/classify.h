@@ -25,6 +25,7 @@ typedef struct lrcsi_classification {
     lrcsi_facet_signs joinable; /* facet: as view->cast, but 0 if it is undecided, or if something
                                    runs along one of its sides. Groups of such facets
                                    (lrcsi_events_join) are the regions of uniform facets */
+    const lrcsi_grid *facets;   /* of all facets that can hide others; NULL if it is not made */
 } lrcsi_classification;
 
 /* Bytes at most. */
@@ -34,5 +35,10 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared);
    as undecided. Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification);
+
+/* Makes the grid of all facets that can hide others, for several users; otherwise each makes the
+   part that it needs. It stays in the work area, and is not made if that has no room for it. */
+size_t lrcsi_classify_facets_need(const lrcs_prepared *prepared);
+void lrcsi_classify_facets(lrcsi_classification *classification, lrcs_work *work);
 
 #endif

@@ -10,14 +10,19 @@
 #include "base/work.h"
 #include "view/side.h"
 #include "visibility/base/sample.h"
+#include "visibility/index/edge_search.h"
 
-/* To decide whether any event crosses a facet, at most MAX_LISTED listed events are examined, and
-   at most MAX_TESTED of those whose boxes meet the facet's box. One facet in 100,000 of real models
-   needs more. If facets are long and narrow or lie in a stack, a grid separates little: without a
-   limit the search would take quadratic time. If the limit is reached, the facet counts as
-   undecided, which is never wrong: both limits are heuristic. */
-#define MAX_LISTED 4096u
-#define MAX_TESTED 512u
+/* To find the candidates of a meshlet, or to decide whether any event crosses a facet of a meshlet
+   with more candidates, at most MAX_LISTED listed events are examined; and at most MAX_TESTED of
+   those whose boxes meet the facet's box. One facet in 100,000 of real models needs more. If facets
+   are long and narrow or lie in a stack, a grid separates little: without a limit the search would
+   take quadratic time. If the limit is reached, the facet counts as undecided, which is never
+   wrong: both limits are heuristic. So is MANY_EXAMINED: if more events than that were examined for
+   a facet, the candidates of its meshlet are sought, which replaces searching for each of the
+   others. */
+#define MAX_LISTED    4096u
+#define MAX_TESTED    512u
+#define MANY_EXAMINED 64u
 
 /* --- one event edge --------------------------------------------------------------------------- */
 
@@ -156,6 +161,7 @@ typedef struct crossing_query {
     int is_limited;     /* at most MAX_LISTED listed events are examined, and MAX_TESTED tested */
     uint32_t *edge;     /* room for the crossings; NULL: they are only counted */
     uint32_t count;     /* found: how many they are */
+    uint32_t examined;  /* found: how many listed events were examined */
     int along_side;     /* found: an event edge in front of the facet runs along one of its sides */
     int limit_reached;  /* found: nothing more could have been examined */
 } crossing_query;
@@ -224,20 +230,111 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t examined = allowed - left;
     lrcsi_meter_take(meter, examined);
     query->count = count;
+    query->examined = examined;
     query->limit_reached = query->is_limited && (tests_left == 0 || examined == limit);
     if (more && !query->limit_reached) {
         lrcsi_meter_take(meter, 1); /* none is left: this marks the meter as spent */
     }
 }
 
-int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_meter *meter,
-                             int *along_side)
+/* Adds the events in a bucket that may cross the facets in a rectangle; their meshlet has this box.
+   Returns how many it examined. */
+static uint32_t bucket_candidates(lrcsi_event_search *search, lrcsi_grid_items bucket,
+                                  const lrcsi_view_box *box, const lrcsi_edge_search *around,
+                                  int *line, lrcsi_crossing_candidates *candidates)
 {
-    const lrcsi_grid *grid = &search->grid;
+    const lrcsi_view *view = search->view;
+    uint32_t i = bucket.from;
+    for (; i < bucket.to && candidates->state == LRCSI_CANDIDATES_KNOWN; i++) {
+        const uint32_t index = search->grid.item[i];
+        lrcsi_event_box *event = &search->event[index];
+        if (lrcsi_view_box_behind(&event->box, box)) {
+            break; /* so are all after it */
+        }
+        if (lrcsi_view_box_beside(&event->box, box) || event->last_search == search->searches) {
+            continue;
+        }
+        event->last_search = search->searches;
+        const lrcsi_edge *edge = &view->prepared->topology.edge[event->edge];
+        if (lrcsi_edge_search_excludes(around, view->point[edge->low].x, view->point[edge->high].x,
+                                       0, line)) {
+            continue;
+        }
+        if (candidates->count == LRCSI_CROSSING_CANDIDATES) {
+            candidates->state = LRCSI_CANDIDATES_UNKNOWN;
+        } else {
+            candidates->event[candidates->count++] = index;
+        }
+    }
+    return i - bucket.from;
+}
+
+/* Finds the candidates of a meshlet. */
+static void candidates_find(lrcsi_event_search *search, uint32_t meshlet, lrcsi_meter *meter,
+                            lrcsi_crossing_candidates *candidates)
+{
+    const lrcsi_view *view = search->view;
+    const uint32_t start = meshlet * LRCSI_MESHLET_FACETS;
+    const uint32_t end = lrcsi_meshlet_end(start, view->prepared->scene->facet_count);
+    uint32_t facet[LRCSI_MESHLET_FACETS];
+    uint32_t facets = 0;
+    for (uint32_t f = start; f < end; f++) {
+        facet[facets] = f;
+        facets += lrcsi_view_casts(view, f) != 0;
+    }
+    lrcsi_grid_walk walk;
+    lrcsi_grid_row row;
+    const lrcsi_edge_search around =
+        lrcsi_edge_search_around(view, &search->grid, facet, facets, 0, &walk);
+    const lrcsi_view_box *box = &search->boxes.meshlet[meshlet];
+    uint32_t examined = 0;
+    int line = 0;
+    candidates->count = 0;
+    candidates->state = LRCSI_CANDIDATES_KNOWN;
+    (void)lrcsi_event_search_begin(search);
+    while (candidates->state == LRCSI_CANDIDATES_KNOWN && lrcsi_grid_walk_next(&walk, &row)) {
+        for (uint32_t x = row.x0; x < row.x1 && examined <= MAX_LISTED; x++) {
+            const lrcsi_grid_items bucket = lrcsi_grid_row_items(&search->grid, row.y, x, x + 1);
+            examined += bucket_candidates(search, bucket, box, &around, &line, candidates);
+        }
+        candidates->state = examined <= MAX_LISTED ? candidates->state : LRCSI_CANDIDATES_UNKNOWN;
+    }
+    if (!lrcsi_meter_take(meter, examined)) {
+        candidates->state = LRCSI_CANDIDATES_UNKNOWN;
+    }
+}
+
+/* Tests the candidates in place of the events in the grid. */
+static void candidates_search(lrcsi_event_search *search,
+                              const lrcsi_crossing_candidates *candidates, crossing_query *query,
+                              lrcsi_meter *meter)
+{
+    const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, query->facet);
+    if (!lrcsi_meter_take(meter, candidates->count)) {
+        return;
+    }
+    for (uint32_t i = 0; i < candidates->count && query->count < query->most; i++) {
+        const lrcsi_event_box *event = &search->event[candidates->event[i]];
+        query->count += !lrcsi_view_box_behind(&event->box, &box) &&
+                        !lrcsi_view_box_beside(&event->box, &box) &&
+                        edge_crosses(search->view, query->facet, event->edge, &query->along_side);
+    }
+}
+
+int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_meter *meter,
+                             lrcsi_crossing_candidates *candidates, int *along_side)
+{
     crossing_query query = {.facet = facet, .component = LRCS_NONE, .most = 1, .is_limited = 1};
-    if (lrcsi_grid_has_items(grid,
-                             lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
+    if (candidates->state == LRCSI_CANDIDATES_NOT_SOUGHT && candidates->examined > MANY_EXAMINED) {
+        candidates_find(search, facet / LRCSI_MESHLET_FACETS, meter, candidates);
+    }
+    if (candidates->state == LRCSI_CANDIDATES_KNOWN) {
+        candidates_search(search, candidates, &query, meter);
+    } else if (lrcsi_grid_has_items(
+                   &search->grid,
+                   lrcsi_grid_buckets(&search->grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
         crossings_search(search, &query, meter);
+        candidates->examined = query.examined;
     }
     *along_side = query.along_side;
     return query.count > 0 || query.limit_reached || lrcsi_meter_spent(meter);

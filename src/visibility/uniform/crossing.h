@@ -54,11 +54,28 @@ size_t lrcsi_crossings_need(const lrcs_prepared *prepared);
 int lrcsi_crossings_make(const lrcsi_event_search *search, lrcs_work *work,
                          lrcsi_crossings *crossings);
 
-/* May any event edge cross a facet? Returns 1 too if the search reaches a limit, or if the meter is
-   spent. Also returned: *along_side, 1 if an event edge in front of the facet may run along one of
-   its sides. */
+enum lrcsi_candidates_state {
+    LRCSI_CANDIDATES_NOT_SOUGHT,
+    LRCSI_CANDIDATES_KNOWN,
+    LRCSI_CANDIDATES_UNKNOWN /* not all were found, because a limit was reached */
+};
+
+/* The events that may cross a facet of a meshlet, or run along a side of one. They are sought once
+   the search for one of its facets has examined many events. */
+#define LRCSI_CROSSING_CANDIDATES 256u
+typedef struct lrcsi_crossing_candidates {
+    int state;         /* a lrcsi_candidates_state */
+    uint32_t examined; /* events examined for the last facet */
+    uint32_t count;
+    uint32_t event[LRCSI_CROSSING_CANDIDATES];
+} lrcsi_crossing_candidates;
+
+/* May any event edge cross a facet? Returns 1 too if a limit is reached, or if the meter is spent.
+   Also returned: *along_side, 1 if an event edge in front of the facet may run along one of its
+   sides. Given, and changed: the candidates of its meshlet, with `state` and `examined` 0 at first;
+   the meshlet must have been opened. */
 int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_meter *meter,
-                             int *along_side);
+                             lrcsi_crossing_candidates *candidates, int *along_side);
 
 /* Finds the crossings of a facet, unless they are there already. Some may be missing if the meter
    is spent; NULL: no limit. */

@@ -199,10 +199,10 @@ size_t lrcsi_query_need(const lrcs_prepared *prepared)
                           lrcsi_grid_facets_need(prepared));
 }
 
-/* 1. Finds the regions, and makes a grid that lists only what the undecided facets and the first
-   facet of each region need. 2. Makes one query for each region, at its first facet. 3. If a query
-   gave no answer, which is rare, makes a complete grid, and a query for each facet of its region.
- */
+/* 1. Finds the regions, and, unless the classification has a grid of all facets, makes one that
+   lists only what the undecided facets and the first facet of each region need. 2. Makes one query
+   for each region, at its first facet. 3. If a query gave no answer, which is rare, makes a
+   complete grid if there was none, and a query for each facet of its region. */
 int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_grid *facets, unsigned char *answer)
 {
@@ -217,8 +217,13 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
     }
     lrcsi_events_join(classification->view, &classification->joinable, region);
     const lrcsi_grid_readers readers = {undecided, region, &classification->joinable};
-    int status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
+    int status = LRCS_OK;
+    if (classification->facets) {
+        *facets = *classification->facets;
+    } else {
+        status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
                                    &readers, work, facets);
+    }
     if (status != LRCS_OK) {
         return status;
     }
@@ -244,7 +249,7 @@ int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter
             memset(answer + start, answer[start], end - start);
         }
     }
-    if (unanswered > 0) {
+    if (unanswered > 0 && !classification->facets) {
         work->used = mark;
         status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
                                    NULL, work, facets);
