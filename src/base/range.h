@@ -16,6 +16,12 @@ static inline double lrcsi_max(double a, double b)
     return a > b ? a : b;
 }
 
+/* x, but at least 0 and at most 1. */
+static inline double lrcsi_clamp_unit(double x)
+{
+    return lrcsi_max(0.0, lrcsi_min(1.0, x));
+}
+
 /* Extends the range low .. high to contain x. */
 static inline void lrcsi_range_extend(double x, double *low, double *high)
 {

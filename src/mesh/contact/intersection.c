@@ -29,10 +29,11 @@ enum { LEAF_LANES = LRCSI_TREE_LANES };
    in the wall of a tilted cylinder, have boxes that intersect most others of the wall. */
 enum { MANY_PAIRS = 16, SOME_LEAVES = 8, LEAVES_APART = 4 };
 
-/* When leaves are also compared by slabs. If the box of a leaf intersects more than MANY_LEAVES
-   others, the rest of them are compared by slabs too; if slabs then separate at least NODES_APART
-   nodes from it, the next leaf is compared by slabs from the start. The slabs of the tree are
-   filled once such leaves have intersected FILL_COST times as many others as there are leaves. */
+/* When leaves are also compared by slabs and capsules. If the box of a leaf intersects more than
+   MANY_LEAVES others, the rest of them are compared by these too; if they then separate at least
+   NODES_APART nodes from it, the next leaf is compared by them from the start. Those of the tree
+   are filled once such leaves have intersected FILL_COST times as many others as there are leaves.
+   */
 enum { MANY_LEAVES = 16, NODES_APART = 8, FILL_COST = 2 };
 
 /* 8 u: see slab_separates; heights are within 4 u, and what is added to them rounds by 2 u. */
@@ -63,7 +64,8 @@ typedef struct contact_search {
     lrcsi_tree_slab slab; /* of the leaf slab_of */
     uint32_t slab_of;     /* LRCS_NONE: of none yet */
     int leaves_apart;     /* leaves that the slab of the last leaf separated from it */
-    int slabs_pay;        /* slabs separated at least NODES_APART nodes from the last leaf */
+    int narrow_pays;      /* slabs and capsules separated at least NODES_APART nodes from the last
+                             leaf */
     found_contact *found; /* above the tree in the work area */
     uint32_t count;
     lrcs_work *work;
@@ -330,7 +332,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     if (apex != LRCS_NONE && !in_fan) {
         lrcsi_tree_narrow_by_cones(&walk, leaf);
     }
-    if (search->slabs_pay) {
+    if (search->narrow_pays) {
         narrow_walk(&walk, leaf);
     }
     int slab_from = search->leaves_apart >= LEAVES_APART ? 0 : SOME_LEAVES;
@@ -347,7 +349,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         }
         status = join_leaves(search, met >= slab_from, leaf, other);
     }
-    search->slabs_pay = walk.apart >= NODES_APART;
+    search->narrow_pays = walk.apart >= NODES_APART;
     return status;
 }
 

@@ -210,12 +210,6 @@ void lrcsi_tree_fill_capsules(const lrcs_point *vertex, const lrcs_facet *facet,
     tree->has_capsules = 1;
 }
 
-/* A number as a position along a segment. */
-static double on_segment(double t)
-{
-    return lrcsi_max(0.0, lrcsi_min(1.0, t));
-}
-
 /* Roughly the vector between the points of two segments that are nearest to each other (Ericson,
    Real-Time Collision Detection, 2005, 5.1.9). Given: the vectors along both, and between their
    first ends. */
@@ -228,9 +222,9 @@ static void nearest_vector(const double v[3], const double w[3], const double be
     const double v_between = lrcsi_vec3_dot(v, between);
     const double w_between = lrcsi_vec3_dot(w, between);
     const double det = vv * ww - vw * vw;
-    double s = det > 0.0 ? on_segment((v_between * ww - vw * w_between) / det) : 0.0;
-    const double t = on_segment((vw * s - w_between) / ww);
-    s = on_segment((v_between + vw * t) / vv);
+    double s = det > 0.0 ? lrcsi_clamp_unit((v_between * ww - vw * w_between) / det) : 0.0;
+    const double t = lrcsi_clamp_unit((vw * s - w_between) / ww);
+    s = lrcsi_clamp_unit((v_between + vw * t) / vv);
     for (int k = 0; k < 3; k++) {
         n[k] = between[k] + t * w[k] - s * v[k];
     }

@@ -2,6 +2,7 @@
 /* Wavefront MTL: colour (Kd) and transparency (d, Tr) of the materials that an OBJ file uses. All
    other statements of a library (shading, textures) have no meaning here and are skipped. The bytes
    are read twice: once to check them, once to write the materials. */
+#include "base/range.h"
 #include "base/text.h"
 #include "base/where.h"
 #include "mesh/read/lines.h"
@@ -38,11 +39,6 @@ static int name_matches(const char *bytes, size_t size, const char *name)
     return *name == '\0';
 }
 
-static double clamp_unit(double x)
-{
-    return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x;
-}
-
 /* "Kd r g b", or "Kd r" for a grey; a spectral curve or CIE XYZ is ignored. */
 static int read_diffuse(mtl_walk *w)
 {
@@ -64,7 +60,7 @@ static int read_diffuse(mtl_walk *w)
         if (status != LRCS_OK) {
             return status;
         }
-        rgb[k] = (unsigned char)floor(255.0 * clamp_unit(value) + 0.5);
+        rgb[k] = (unsigned char)floor(255.0 * lrcsi_clamp_unit(value) + 0.5);
     }
     if (w->current) {
         memcpy(w->current->rgb, rgb, sizeof rgb);
@@ -86,7 +82,7 @@ static int read_transparency(mtl_walk *w, int is_d)
     double value = 0.0;
     int status = lrcsi_lines_number(&w->lines, is_d ? "d" : "Tr", &value, w->where);
     if (status == LRCS_OK && w->current && (is_d || !w->has_d)) {
-        w->current->transparency = is_d ? 1.0 - clamp_unit(value) : clamp_unit(value);
+        w->current->transparency = is_d ? 1.0 - lrcsi_clamp_unit(value) : lrcsi_clamp_unit(value);
     }
     w->has_d |= is_d;
     return status;

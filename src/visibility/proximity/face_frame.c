@@ -126,14 +126,16 @@ static int rectangle_make(const lrcs_prepared *p, lrcsi_face_frame *face)
         face->half[i] = 0.5 * fabs(lrcsi_vec3_dot(diagonal, axis));
     }
     const uint32_t other = is_second ? face->facet - 1 : face->facet + 1;
-    const lrcsi_normal *n[2] = {&p->normal[face->facet], &p->normal[other]};
+    double n[2][3];
     double turn = 0;
     double height = 0; /* of the other facet's corner that this one does not have */
     double from[3];
+    lrcsi_prepared_unit_normal(p, face->facet, n[0]);
+    lrcsi_prepared_unit_normal(p, other, n[1]);
     lrcsi_vec3_between(a, lrcsi_prepared_corner(p, other, is_second ? 1 : 2), from);
     for (int k = 0; k < 3; k++) {
-        turn += fabs(n[0]->high[k] / n[0]->length - n[1]->high[k] / n[1]->length);
-        height += from[k] * (n[0]->high[k] / n[0]->length);
+        turn += fabs(n[0][k] - n[1][k]);
+        height += from[k] * n[0][k];
     }
     face->plane_err = fabs(height);
     return turn <= PLANE_TURN_MAX && !p->skip[other];

@@ -142,13 +142,15 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 static double plane_normal(const lrcs_prepared *p, uint32_t facet, double n[3])
 {
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    const lrcsi_normal *normal = &p->normal[facet];
-    const int is_disc = part->bounds.reach > 0 && part->rigid && p->scene->facet_smooth[facet] == 0;
-    const double side = lrcsi_vec3_dot(part->axis[2], normal->high) < 0 ? -1 : 1;
-    for (int k = 0; k < 3; k++) {
-        n[k] = is_disc ? side * part->axis[2][k] : normal->high[k] / normal->length;
+    lrcsi_prepared_unit_normal(p, facet, n);
+    if (!(part->bounds.reach > 0 && part->rigid && p->scene->facet_smooth[facet] == 0)) {
+        return part->bounds.normal_err;
     }
-    return is_disc ? 0 : part->bounds.normal_err;
+    const double side = lrcsi_vec3_dot(part->axis[2], n) < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+        n[k] = side * part->axis[2][k];
+    }
+    return 0;
 }
 
 /* The plane of a flat facet beside a solid, in the frame of the solid's part: up . x = level, with
