@@ -182,16 +182,30 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* About how many buckets a facet meets. Averaged over all places, a convex figure meets as many
-   unit squares as its area, its width, its height and 1 add up to; a box has whole buckets. */
+/* In a scene of at least MANY_FACETS, a facet whose box meets at least MIN_BOX_BUCKETS is listed
+   only in the buckets along it. Heuristics: with fewer buckets, finding these takes longer than it
+   saves; with fewer facets, the smaller buckets that a grid then has cost more than they save. */
+enum { MANY_FACETS = 32768, MIN_BOX_BUCKETS = 32 };
+
+static int is_listed_by_box(const lrcsi_grid *grid, lrcsi_grid_rect r)
+{
+    return (r.x1 - r.x0) * (r.y1 - r.y0) < MIN_BOX_BUCKETS ||
+           grid->view->prepared->scene->facet_count < MANY_FACETS;
+}
+
+/* About how many buckets a facet is listed in. Averaged over all places, a convex figure meets as
+   many unit squares as its area, its width, its height and 1 add up to. */
 static uint64_t facet_buckets(const lrcsi_grid *grid, const lrcsi_boxes *boxes, uint32_t facet)
 {
-    const lrcsi_grid_rect box = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, facet));
-    const double wide = box.x1 - box.x0;
-    const double high = box.y1 - box.y0;
+    const lrcsi_grid_rect r = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, facet));
+    const uint32_t count = (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
+    if (is_listed_by_box(grid, r)) {
+        return count;
+    }
     const double unit = grid->view->scale * grid->buckets_per_unit;
     const double area = lrcsi_view_projected(grid->view, facet) * unit * unit;
-    return (uint64_t)lrcsi_min(wide * high, area + wide + high - 1);
+    const int around = (r.x1 - r.x0) + (r.y1 - r.y0) - 1;
+    return (uint64_t)lrcsi_min(count, area + around);
 }
 
 /* A grid of one bucket lists each facet once, so the loop ends. */
@@ -254,35 +268,46 @@ static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
     return *needed ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Does a walk meet a marked bucket? */
-static int needed_any(const unsigned char *needed, lrcsi_grid_walk *walk)
+/* Is any of these buckets marked? */
+static int needed_in_row(const lrcsi_grid *grid, const unsigned char *needed, lrcsi_grid_row row)
 {
-    lrcsi_grid_row row;
-    while (lrcsi_grid_walk_next(walk, &row)) {
-        const unsigned char *bucket = needed + (size_t)row.y * walk->grid->size;
-        for (uint32_t x = row.x0; x < row.x1; x++) { /* few: memchr would cost more */
-            if (bucket[x]) {
-                return 1;
-            }
+    const unsigned char *bucket = needed + (size_t)row.y * grid->size;
+    for (uint32_t x = row.x0; x < row.x1; x++) { /* few: memchr would cost more */
+        if (bucket[x]) {
+            return 1;
         }
     }
     return 0;
 }
 
-static int meshlet_is_needed(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
-                             const unsigned char *needed, uint32_t meshlet)
+static int needed_any(const lrcsi_grid *grid, const unsigned char *needed, lrcsi_grid_rect r)
 {
-    lrcsi_grid_walk walk;
-    lrcsi_grid_walk_begin(grid, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet]), &walk);
-    return needed_any(needed, &walk);
+    for (uint32_t y = r.y0; y < r.y1; y++) {
+        if (needed_in_row(grid, needed, (lrcsi_grid_row){y, r.x0, r.x1})) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
-static int facet_is_needed(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
-                           const unsigned char *needed, uint32_t facet)
+/* Is a facet listed in a marked bucket? */
+static int facet_is_needed(const lrcsi_grid *grid, const unsigned char *needed,
+                           const lrcsi_boxes *boxes, uint32_t facet)
 {
+    const lrcsi_view_box *box = lrcsi_boxes_facet(boxes, facet);
+    const lrcsi_grid_rect r = lrcsi_grid_buckets(grid, box);
+    if (is_listed_by_box(grid, r)) {
+        return needed_any(grid, needed, r);
+    }
     lrcsi_grid_walk walk;
-    lrcsi_grid_walk_facet(grid, lrcsi_boxes_facet(boxes, facet), facet, &walk);
-    return needed_any(needed, &walk);
+    lrcsi_grid_row row;
+    lrcsi_grid_walk_facet(grid, box, facet, &walk);
+    while (lrcsi_grid_walk_next(&walk, &row)) {
+        if (needed_in_row(grid, needed, row)) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* Lists the facets that meet buckets to be read, in order, and makes their boxes. Status: LRCS_OK;
@@ -297,14 +322,15 @@ static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, const unsig
     for (uint32_t start = 0; start < count && list; start += LRCSI_MESHLET_FACETS) {
         uint32_t meshlet = start / LRCSI_MESHLET_FACETS;
         if (boxes->state[meshlet] == LRCSI_BOXES_NONE ||
-            (needed && !meshlet_is_needed(grid, boxes, needed, meshlet))) {
+            (needed &&
+             !needed_any(grid, needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
             continue;
         }
         lrcsi_boxes_open(boxes, meshlet);
         uint32_t end = lrcsi_meshlet_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
-                (!needed || facet_is_needed(grid, boxes, needed, f))) {
+                (!needed || facet_is_needed(grid, needed, boxes, f))) {
                 list[listed++] = f;
             }
         }
@@ -318,17 +344,33 @@ static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, const unsig
     return LRCS_OK;
 }
 
-/* Counts the entries of the selected facets, or writes them. Returns the number of entries. */
+/* Counts the entries of a facet, or writes them. Returns the number of entries. */
+static uint64_t facet_put(lrcsi_grid *grid, uint32_t facet)
+{
+    const lrcsi_view_box *box = lrcsi_boxes_facet(&grid->boxes, facet);
+    const lrcsi_grid_rect r = lrcsi_grid_buckets(grid, box);
+    uint64_t listed = 0;
+    if (is_listed_by_box(grid, r)) {
+        for (uint32_t y = r.y0; y < r.y1; y++) {
+            listed += grid_put(grid, y, r.x0, r.x1, facet);
+        }
+        return listed;
+    }
+    lrcsi_grid_walk walk;
+    lrcsi_grid_row row;
+    lrcsi_grid_walk_facet(grid, box, facet, &walk);
+    while (lrcsi_grid_walk_next(&walk, &row)) {
+        listed += grid_put(grid, row.y, row.x0, row.x1, facet);
+    }
+    return listed;
+}
+
+/* The same for all selected facets. */
 static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t selected)
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_grid_walk walk;
-        lrcsi_grid_row row;
-        lrcsi_grid_walk_facet(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]), facet[i], &walk);
-        while (lrcsi_grid_walk_next(&walk, &row)) {
-            listed += grid_put(grid, row.y, row.x0, row.x1, facet[i]);
-        }
+        listed += facet_put(grid, facet[i]);
     }
     return listed;
 }
