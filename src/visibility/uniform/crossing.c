@@ -22,7 +22,7 @@
    others. */
 #define MAX_LISTED    4096u
 #define MAX_TESTED    512u
-#define MANY_EXAMINED 256u
+#define MANY_EXAMINED 128u
 
 /* --- one event edge --------------------------------------------------------------------------- */
 
