@@ -93,6 +93,14 @@ static inline double lrcsi_view_point_err(const double x[3])
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
 }
 
+/* The largest error of a facet's corners. */
+static inline double lrcsi_view_facet_err(const lrcsi_view *view, uint32_t facet)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    return lrcsi_max3(view->point[corner[0]].err, view->point[corner[1]].err,
+                      view->point[corner[2]].err);
+}
+
 /* Bounds of the true view coordinates of some vertices. Written out, because compilers do not
    unroll short loops. */
 static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *vertex, int count,

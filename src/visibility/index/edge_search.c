@@ -17,10 +17,7 @@ static lrcsi_edge_search search_empty(void)
 /* A bound on the errors of a facet's corners. */
 static double facet_err(const lrcsi_view *view, uint32_t facet)
 {
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    return LRCSI_EDGE_SEARCH_ERR * lrcsi_max3(view->point[corner[0]].err,
-                                              view->point[corner[1]].err,
-                                              view->point[corner[2]].err);
+    return LRCSI_EDGE_SEARCH_ERR * lrcsi_view_facet_err(view, facet);
 }
 
 /* Extends the box, and the heights of the sides, to a facet and to what is within `near` of it. */

@@ -9,12 +9,7 @@
 
 double lrcsi_edge_rectangle_facet_err(const lrcsi_view *view, uint32_t facet)
 {
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double err = 0;
-    for (int k = 0; k < 3; k++) {
-        err = lrcsi_max(err, view->point[corner[k]].err);
-    }
-    return LRCSI_EDGE_RECTANGLE_ERR * err;
+    return LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_facet_err(view, facet);
 }
 
 /* The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
