@@ -20,6 +20,7 @@
 #include "scene/meshlets.h"
 #include "scene/neighbours.h"
 #include "scene/proximity.h"
+#include "scene/proximity_search.h"
 #include "scene/solid.h"
 
 /* Checks what lrcs_scene_build guarantees, so that no later stage needs to. Returned: the exponent
@@ -221,6 +222,9 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     p->convex |= p->live == 0;
     if (status == LRCS_OK && p->has_curved_shapes && !p->convex) {
         status = lrcsi_proximity_make(p, work);
+        if (status == LRCS_OK && p->proximity.reach) {
+            status = lrcsi_proximity_search(p, work);
+        }
     }
     if (status == LRCS_OK && p->has_curved_shapes) {
         status = lrcsi_extents_make(p, work);

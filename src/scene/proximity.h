@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Curved shapes among other parts: how far the true surface of each part may be from its facets,
-   and which facets are so close to a facet of another part that the depth order of the true
-   surfaces may differ from theirs. It does not depend on direction. */
+   and how close two facets must be for the depth order of the true surfaces to differ from theirs.
+   It does not depend on direction. */
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
@@ -61,28 +61,14 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
    for these facets only. */
 int lrcsi_proximity_on_round_wall(const lrcs_prepared *prepared, uint32_t facet);
 
-/* Fractions of a facet's area on both sides of a plane. */
-typedef struct lrcsi_sides_fraction {
-    double front, back;
-} lrcsi_sides_fraction;
-
-/* Upper bounds of the fractions of a facet's area that are within `slack` of another facet, and in
-   front of its plane or behind it. */
-lrcsi_sides_fraction lrcsi_proximity_fractions(const lrcs_prepared *prepared, uint32_t facet,
-                                               uint32_t other, double slack);
-
-/* Is it proved that a facet's side, from corner `side` to the next, is farther than this distance
-   from another facet? */
-int lrcsi_proximity_side_is_far(const lrcs_prepared *prepared, uint32_t facet, int side,
-                                uint32_t other, double distance);
-
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
 
 /* Bytes that suffice for ordinary scenes; 0 if no shape is curved. */
 size_t lrcsi_proximity_need(const lrcs_scene *scene);
 
-/* Fills prepared->proximity, in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+/* Fills what prepared->proximity holds of each part, if the bounds of all parts are known, and
+   makes room for what facets are near, in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_proximity_make(lrcs_prepared *prepared, lrcs_work *work);
 
 #endif

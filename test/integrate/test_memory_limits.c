@@ -8,6 +8,7 @@
 #include "integrate/cubature/cubature.h"
 #include "memory_limit.h"
 #include "scene/proximity.h"
+#include "scene/proximity_search.h"
 #include "scene/solid.h"
 #include "scenes.h"
 #include "visibility/proximity/proximity_band.h"
@@ -257,6 +258,9 @@ typedef struct inner_steps {
 static int step_proximity(inner_steps *s, lrcs_work *work)
 {
     int status = lrcsi_proximity_make(&s->prepared, work);
+    if (status == LRCS_OK && s->prepared.proximity.reach) {
+        status = lrcsi_proximity_search(&s->prepared, work);
+    }
     work->used = 0; /* the caller's to put back */
     return status;
 }

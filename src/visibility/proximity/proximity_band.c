@@ -104,6 +104,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "scene/proximity.h"
+#include "scene/proximity_pair.h"
 #include "visibility/proximity/event_band.h"
 #include "visibility/proximity/near_events.h"
 
