@@ -5,9 +5,7 @@
 #ifndef LRCSI_WALL_MARGIN_H
 #define LRCSI_WALL_MARGIN_H
 
-#include "base/sort.h"
-#include "visibility/index/marks.h"
-#include "visibility/proximity/edge_margin.h"
+#include "visibility/proximity/margin_facets.h"
 #include "visibility/uniform/classify.h"
 
 /* Of a facet. Areas are in projection, scaled. */
@@ -26,43 +24,14 @@ typedef struct lrcsi_wall_event {
     lrcsi_segment_part known; /* the part of the edge of which the margins there are */
 } lrcsi_wall_event;
 
-/* Of a facet: the fraction for which its order with some of these parts is not proved
-   (part_order.h). */
-typedef struct lrcsi_wall_unproved {
-    double fraction;
-    lrcsi_part_set parts;
-} lrcsi_wall_unproved;
-
-/* A plane, in view coordinates, below which points are behind all of a part. */
-typedef struct lrcsi_wall_plane {
-    double up[3], level; /* unit vector; its product with the plane's points */
-    double err;          /* bound on the error of `level` and of products with view coordinates */
-} lrcsi_wall_plane;
-
-enum { LRCSI_WALL_PLANES = 6 };
-
-/* A facet that the margin of an edge meets. */
-typedef struct lrcsi_margin_facet lrcsi_margin_facet;
-
 /* The search for margins, facet by facet. */
 typedef struct lrcsi_wall_margins {
     lrcsi_event_bands *bands;
     const lrcsi_classification *classification;
-    uint32_t *first_pair, *next_pair; /* facet: the first of its pairs (scene/prepared.h); pair: the
-                                         next one of the same facet; LRCS_NONE: no further one */
-    unsigned char *pairs;             /* facet: what is left of them */
-    lrcsi_wall_unproved *unproved;    /* facet */
-    lrcsi_wall_margin *margin;        /* facet: to be filled */
-    lrcsi_wall_event *event;          /* event */
-    lrcsi_margin_facet *facet;        /* those of the edge under examination */
-    lrcsi_sort_item *order;           /* the same, by where they begin to be near the edge */
-    double *end_max;                  /* the largest t to which these or those before are near it */
-    lrcsi_outline outline;            /* of the edge under examination; its k is at least delta */
-    lrcsi_wall_plane plane[LRCSI_WALL_PLANES]; /* below the part of this edge */
-    int plane_count;                           /* so many of them are made: the others when they are
-                                                  needed */
-    uint32_t facet_count;
-    lrcsi_marks reached; /* facets: those of the edge under examination */
+    lrcsi_wall_margin *margin;  /* facet: to be filled */
+    lrcsi_wall_event *event;    /* event */
+    lrcsi_margin_facets facets; /* those of the edge under examination */
+    lrcsi_outline outline;      /* of this edge; its k is at least delta */
 } lrcsi_wall_margins;
 
 /* Scratch memory for it. */
