@@ -227,6 +227,22 @@ static long double outside_capsule(const lrcsi_tree_capsule *c, const double *x)
     return sqrtl(square) - c->radius;
 }
 
+/* The capsule of a facet: that of a leaf in which it is listed several times. */
+static lrcsi_tree_capsule facet_capsule(uint32_t f)
+{
+    enum { COPIES = LRCSI_TREE_LANES + 1 };
+    static unsigned char own_room[1 << 16];
+    lrcs_work work = lrcs_work_make(own_room, sizeof own_room);
+    lrcs_facet copy[COPIES];
+    lrcsi_tree tree;
+    for (int i = 0; i < COPIES; i++) {
+        copy[i] = facet[f];
+    }
+    assert_int_equal(lrcsi_tree_make(vertex, copy, COPIES, NULL, NULL, 0, &work, &tree), LRCS_OK);
+    lrcsi_tree_fill_capsules(vertex, copy, &tree);
+    return lrcsi_tree_lane_capsule(&tree, 1, 0, 0);
+}
+
 /* The walls of two cylinders of n strips that intersect at an angle, neither of them parallel to an
    axis. Strip i of the first is facet 2 i, of the second facet 2 i + 1. */
 static void make_walls(uint32_t n)
@@ -258,7 +274,7 @@ static uint32_t near_walls(uint32_t n, int by_capsules)
     lrcsi_tree_fill_capsules(vertex, facet, &tree);
     for (uint32_t f = 0; f < 2 * n; f += 2) {
         const lrcsi_box box = lrcsi_box_of(vertex, &facet[f]);
-        const lrcsi_tree_capsule capsule = lrcsi_tree_facet_capsule(vertex, &facet[f]);
+        const lrcsi_tree_capsule capsule = facet_capsule(f);
         lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, 0);
         if (by_capsules) {
             lrcsi_tree_narrow_by_capsule(&walk, &capsule);
@@ -289,7 +305,7 @@ static void capsules_contain_what_is_below_them(void **state)
                 const lrcsi_tree_capsule c = lrcsi_tree_lane_capsule(
                     &tree, level, lane / LRCSI_TREE_LANES, lane % LRCSI_TREE_LANES);
                 const lrcsi_tree_capsule own =
-                    lrcsi_tree_facet_capsule(vertex, &facet[tree.order[place]]);
+                    facet_capsule(tree.order[place]);
                 assert_true(isfinite(c.radius) && isfinite(own.radius));
                 for (int k = 0; k < 3; k++) {
                     const double *x = vertex[facet[tree.order[place]].corner[k]].x;
@@ -392,7 +408,7 @@ static void capsules_leave_out_nothing_that_meets(void **state)
     uint32_t left_out = 0;
     for (uint32_t f = 0; f + 1 < N; f++) {
         const lrcsi_box box = lrcsi_box_of(vertex, &facet[f]);
-        const lrcsi_tree_capsule capsule = lrcsi_tree_facet_capsule(vertex, &facet[f]);
+        const lrcsi_tree_capsule capsule = facet_capsule(f);
         lrcsi_tree_walk walk = lrcsi_tree_within(&tree, &box, LRCS_NONE);
         int found = 0;
         lrcsi_tree_narrow_by_capsule(&walk, &capsule);
@@ -428,14 +444,14 @@ static void a_capsule_of_a_point_bounds_nothing(void **state)
     vertex[0] = (lrcs_point){{0.1, 0.2, 0.3}};
     facet[0] = (lrcs_facet){{0, 0, 0}};
     make_soup(1, 2, 0.0, 1.0);
-    const lrcsi_tree_capsule point = lrcsi_tree_facet_capsule(vertex, &facet[0]);
-    const lrcsi_tree_capsule other = lrcsi_tree_facet_capsule(vertex, &facet[1]);
+    const lrcsi_tree_capsule point = facet_capsule(0);
+    const lrcsi_tree_capsule other = facet_capsule(1);
     assert_true(point.radius == HUGE_VAL);
     vertex[0] = (lrcs_point){{0, 0, 0}};
     vertex[1] = (lrcs_point){{0x1p-290, 0, 0}};
     vertex[2] = (lrcs_point){{0, 0x1p-291, 0}};
     facet[0] = (lrcs_facet){{0, 1, 2}};
-    assert_true(lrcsi_tree_facet_capsule(vertex, &facet[0]).radius == HUGE_VAL);
+    assert_true(facet_capsule(0).radius == HUGE_VAL);
     assert_false(lrcsi_tree_capsules_apart(&point, &other));
     assert_false(lrcsi_tree_capsules_apart(&other, &point));
 }

@@ -142,14 +142,6 @@ static void balls_add_facet(const lrcs_point *vertex, const lrcs_facet *facet, c
     add_direction(longest, direction);
 }
 
-lrcsi_tree_capsule lrcsi_tree_facet_capsule(const lrcs_point *vertex, const lrcs_facet *facet)
-{
-    capsule_balls balls = {.count = 0};
-    double direction[3] = {0.0, 0.0, 0.0};
-    balls_add_facet(vertex, facet, &balls, direction);
-    return capsule_make(&balls, direction);
-}
-
 static lrcsi_tree_capsule leaf_capsule(const lrcs_point *vertex, const lrcs_facet *facet,
                                        const lrcsi_tree *tree, uint32_t leaf)
 {

@@ -7,9 +7,6 @@
 
 #include "mesh/contact/tree.h"
 
-/* The capsule around one facet. */
-lrcsi_tree_capsule lrcsi_tree_facet_capsule(const lrcs_point *vertex, const lrcs_facet *facet);
-
 /* Fills the capsules of a tree, from the vertices and facets that it was made from. Work: linear.
  */
 void lrcsi_tree_fill_capsules(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
