@@ -14,18 +14,12 @@ static lrcsi_edge_search search_empty(void)
                                .high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
-/* A bound on the errors of a facet's corners. */
-static double facet_err(const lrcsi_view *view, uint32_t facet)
-{
-    return LRCSI_EDGE_SEARCH_ERR * lrcsi_view_facet_err(view, facet);
-}
-
 /* Extends the box, and the heights of the sides, to a facet and to what is within `near` of it. */
 static void search_add(lrcsi_edge_search *search, const lrcsi_view *view, uint32_t facet,
                        double near)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    const double wide = near + facet_err(view, facet);
+    const double wide = near + LRCSI_EDGE_SEARCH_ERR * lrcsi_view_facet_err(view, facet);
     double low[3];
     double high[3];
     lrcsi_view_bounds(view, corner, 3, low, high);
@@ -102,24 +96,23 @@ static void rectangle_sides(lrcsi_edge_search *search, const lrcsi_view *view, u
 }
 
 /* A corner of the rectangle is computed from its heights over two adjacent sides, whose normals are
-   orthogonal, and unit vectors to within 3 u. */
+   orthogonal, and unit vectors to within 3 u. The heights contain the errors of the facets; an edge
+   is listed wherever it may be by its own. */
 lrcsi_edge_search lrcsi_edge_search_around(const lrcsi_view *view, const lrcsi_grid *grid,
                                            const uint32_t *facet, uint32_t count, double near,
                                            lrcsi_grid_walk *walk)
 {
     lrcsi_edge_search search = search_empty();
     lrcsi_view_vertex corner[4];
-    double err = 0;
     rectangle_sides(&search, view, facet[0]);
     for (uint32_t i = 0; i < count; i++) {
         search_add(&search, view, facet[i], near);
-        err = lrcsi_max(err, facet_err(view, facet[i]));
     }
     for (int k = 0; k < 4; k++) {
         const double *one = search.outward[k];
         const double *next = search.outward[(k + 1) % 4];
-        const double height = search.highest[k] + near + err;
-        const double across = search.highest[(k + 1) % 4] + near + err;
+        const double height = search.highest[k] + near;
+        const double across = search.highest[(k + 1) % 4] + near;
         corner[k] = (lrcsi_view_vertex){
             {one[0] * height + next[0] * across, one[1] * height + next[1] * across, 0},
             8 * LRCSI_U * (fabs(height) + fabs(across))};
