@@ -67,8 +67,8 @@ lrcsi_total lrcsi_sigma_sum(lrcsi_sigma *run, lrcs_facet_record *records)
 static void limbs_integrate(lrcsi_sigma *run)
 {
     if (lrcsi_sigma_is_one_convex_shape(run->view.prepared) && run->memory.wall_terms) {
-        lrcsi_clear_sectors_make(&run->view, &run->plan, NULL, NULL, run->request.derivatives,
-                                 run->work, run->memory.wall_terms);
+        lrcsi_clear_sectors_make(&run->view, &run->plan, &run->clear, NULL, NULL,
+                                 run->request.derivatives, run->work, run->memory.wall_terms);
         run->areas.wall_terms = run->memory.wall_terms;
     }
 }
@@ -128,7 +128,7 @@ static void areas_apply_proofs(lrcsi_sigma *run)
             *visible = known;
         }
         *visible = lrcsi_visible_area_proved(view, f, *visible);
-        if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
+        if (front && lrcsi_is_clear_shape(&run->clear, p->scene->facet_part[f])) {
             double projected = lrcsi_view_projected(view, f);
             *visible = lrcsi_visible_area_exact(projected);
         }
@@ -168,10 +168,11 @@ void lrcsi_sigma_integrate(lrcsi_sigma *run, lrcsi_meter *meter)
         run->areas.margins = &run->masked;
     }
     if (run_band(run) && run->areas.moment) {
-        lrcsi_clear_sectors_make(&run->view, &run->plan, &run->masked, memory->visible,
+        lrcsi_clear_sectors_make(&run->view, &run->plan, &run->clear, &run->masked, memory->visible,
                                  run->request.derivatives, run->work, memory->wall_terms);
-        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->masked, memory->visible,
-                                run->request.derivatives, meter, run->work, memory->wall_terms);
+        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->clear, &run->masked,
+                                memory->visible, run->request.derivatives, meter, run->work,
+                                memory->wall_terms);
         run->areas.wall_terms = memory->wall_terms;
     } else {
         limbs_integrate(run);

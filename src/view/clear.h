@@ -16,6 +16,11 @@ typedef struct lrcsi_clear_shapes {
     int all; /* every part with live facets is clear */
 } lrcsi_clear_shapes;
 
+static inline int lrcsi_is_clear_shape(const lrcsi_clear_shapes *clear, uint32_t part)
+{
+    return clear->count > 0 && clear->part[part];
+}
+
 /* Bytes; 0 if no shape has a closed form. */
 size_t lrcsi_clear_need(const lrcs_prepared *prepared);
 

@@ -3,6 +3,8 @@
    solar arrays and a cube. Hard cases are in test_hard.c. */
 #include "integrate/sigma.h"
 
+#include "integrate/sigma_run.h"
+#include "recipe.h"
 #include "scenes.h"
 
 static test_scene scene;
@@ -367,6 +369,53 @@ static void records_of_a_clear_ball_add_up_to_it(void **state)
     }
 }
 
+/* How many sectors of a part are integrated over what the laser sees of their patches. */
+static uint32_t integrated_sectors(const lrcsi_sigma *run, uint32_t part)
+{
+    const lrcs_part *of = &run->view.prepared->scene->part[part];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < of->facet_count && run->areas.wall_terms; f++) {
+        count += run->areas.wall_terms[of->first_facet + f].way != LRCSI_WALL_FACET;
+    }
+    return count;
+}
+
+/* An open dome, alone or in front of a ball that is beside it: by its closed form, so that nothing
+   of it is integrated as well; its limb is if clipping is asked for, which uses no closed forms. */
+static void walls_with_closed_forms_are_not_integrated(void **state)
+{
+    (void)state;
+    static lrcsi_sigma run;
+    const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
+    const lrcs_build_options build = {1e-2, 8000, LRCS_NORMALS_FLAT, LRCS_FACETS_BASE, 0, NULL};
+    for (int i = 0; i < 4; i++) {
+        lrcs_recipe_part part[2];
+        lrcs_recipe_material material[2];
+        lrcs_scene built;
+        lrcs_work work;
+        lrcs_pose pose;
+        lrcs_recipe recipe = recipe_bright_and_black(&brdf, part, material);
+        part[0].shape =
+            (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 1, .parts = LRCS_SHAPE_WALL};
+        part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+        part[1].place.translate[0] = 3;
+        recipe.part_count = i % 2 ? 2 : 1;
+        const lrcs_prepared *prepared = recipe_prepare(&recipe, NULL, &build, &built, &work);
+        lrcs_run_options options = lrcs_run_options_default();
+        options.method = i < 2 ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT;
+        assert_int_equal(lrcs_pose_from_direction((const double[3]){0.1, 0.4, 0.6}, &pose),
+                         LRCS_OK);
+        const lrcsi_sigma_request request = {.options = &options, .last = LRCSI_SIGMA_SUM};
+        assert_int_equal(lrcsi_sigma_stages(&request, prepared, &pose, &work, &run), LRCS_OK);
+        assert_int_equal(lrcsi_is_clear_shape(&run.clear, 0), i < 2);
+        if (i < 2) {
+            assert_int_equal(integrated_sectors(&run, 0), 0);
+        } else {
+            assert_true(integrated_sectors(&run, 0) > 10);
+        }
+    }
+}
+
 /* --- a run as far as a stage ------------------------------------------------------------------ */
 
 /* Each stage takes the steps of those before it and its own, and all memory is given back: so hosts
@@ -436,6 +485,7 @@ int main(void)
         cmocka_unit_test(back_sides_stored_twice_count_once),
         cmocka_unit_test(a_search_for_shadows_on_a_convex_body_finds_none),
         cmocka_unit_test(records_of_a_clear_ball_add_up_to_it),
+        cmocka_unit_test(walls_with_closed_forms_are_not_integrated),
         cmocka_unit_test(a_run_ends_after_the_stage_that_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -173,7 +173,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
     lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}}; /* response_patches */
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
-        int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
+        int in_clear_shape = lrcsi_is_clear_shape(clear, scene->facet_part[f]);
         const int reflects = view->facing[f] != 0 && lrcsi_view_reflects(view, f);
         const lrcsi_wall_terms *wall = lrcsi_areas_wall_terms(&areas, f);
         if (in_clear_shape || !(reflects ? lrcsi_areas_is_summed(&areas, view, f) : wall != NULL)) {
@@ -221,8 +221,8 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
             }
         }
     }
-    for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) { /* 2. clear shapes */
-        if (clear->part[i]) {
+    for (uint32_t i = 0; i < scene->part_count; i++) { /* 2. clear shapes */
+        if (lrcsi_is_clear_shape(clear, i)) {
             uint32_t material = scene->facet_material[scene->part[i].first_facet];
             lrcsi_unit_response at = lrcsi_shape_response_make(view, i, &brdf[material]);
             response_sum(&response[material], 1, &at);

@@ -44,14 +44,19 @@ static void add_tessellation_errors(lrcsi_total_run *run)
     }
 }
 
+/* The accuracy of the shares in which facets divide the sigma of a clear part. */
+#define SHARE_TOLERANCE 1e-3
+
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
-   proportion to that of the flat facets or, if they have none, to the projected areas. */
+   proportion to that of the facets or, if they have none, to the projected areas. */
 static void record_shape(lrcsi_total_run *run, const lrcs_part *part,
                          const lrcsi_shape_terms *terms)
 {
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
     lrcsi_patches patches = {.derivatives = 0};
+    lrcsi_plan plan = *run->plan;
     uint32_t end = part->first_facet + part->facet_count;
+    plan.tolerance = fmax(plan.tolerance, SHARE_TOLERANCE);
     for (int adding = 1; adding >= 0; adding--) { /* first the sums, then the shares of each */
         for (uint32_t f = part->first_facet; f < end; f++) {
             if (run->view->facing[f] <= 0) {
@@ -61,7 +66,7 @@ static void record_shape(lrcsi_total_run *run, const lrcs_part *part,
             double area = incidence.projected;
             lrcsi_visible_area whole = lrcsi_visible_area_exact(area);
             lrcsi_facet_terms facet =
-                lrcsi_facet_terms_make(run->view, run->plan, f, &incidence, &whole, &patches);
+                lrcsi_facet_terms_make(run->view, &plan, f, &incidence, &whole, &patches);
             if (adding) {
                 flat.glint += facet.glint;
                 flat.diffuse += facet.diffuse;

@@ -158,8 +158,9 @@ static void part_make(const sectors_job *job, const lrcs_part *part, lrcsi_wall_
 }
 
 void lrcsi_clear_sectors_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                              int derivatives, lrcs_work *work, lrcsi_wall_terms *terms)
+                              const lrcsi_clear_shapes *clear, const lrcsi_masked_band *band,
+                              const lrcsi_visible_area *visible, int derivatives, lrcs_work *work,
+                              lrcsi_wall_terms *terms)
 {
     const lrcs_scene *scene = view->prepared->scene;
     const size_t mark = work->used;
@@ -170,7 +171,9 @@ void lrcsi_clear_sectors_make(const lrcsi_view *view, const lrcsi_plan *plan,
         terms[f].way = LRCSI_WALL_FACET;
     }
     for (uint32_t i = 0; i < scene->part_count && any; i++) {
-        part_make(&job, &scene->part[i], terms);
+        if (!lrcsi_is_clear_shape(clear, i)) {
+            part_make(&job, &scene->part[i], terms);
+        }
     }
     work->used = mark;
 }

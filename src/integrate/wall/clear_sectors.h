@@ -16,6 +16,7 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/wall_terms.h"
+#include "view/clear.h"
 #include "visibility/base/visible_area.h"
 #include "visibility/proximity/masked_band.h"
 
@@ -23,12 +24,14 @@
 size_t lrcsi_clear_sectors_need(const lrcs_prepared *prepared);
 
 /* Finds the sectors, and what they add: all of it to one of their facets, which may face away from
-   the laser. Given: the visible areas of all facets; a band whose hidden facets are masked, or NULL
-   if there is one part alone, which is convex: `visible` and `work` are then not used; derivatives:
-   1 if the integrals are to include what derivatives need. Returned: terms[facet_count],
-   LRCSI_WALL_FACET for all other facets; without enough memory no sector is found. */
+   the laser. Given: the shapes that have closed forms instead; the visible areas of all facets; a
+   band whose hidden facets are masked, or NULL if there is one part alone, which is convex:
+   `visible` and `work` are then not used; derivatives: 1 if the integrals are to include what
+   derivatives need. Returned: terms[facet_count], LRCSI_WALL_FACET for all other facets; without
+   enough memory no sector is found. */
 void lrcsi_clear_sectors_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                              const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                              int derivatives, lrcs_work *work, lrcsi_wall_terms *terms);
+                              const lrcsi_clear_shapes *clear, const lrcsi_masked_band *band,
+                              const lrcsi_visible_area *visible, int derivatives, lrcs_work *work,
+                              lrcsi_wall_terms *terms);
 
 #endif

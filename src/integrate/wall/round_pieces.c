@@ -586,9 +586,9 @@ static int wall_integrate(pieces_job *job, lrcsi_occlusion **o, lrcs_work *work,
 
 /* Both sides of all round walls, except where a glint is so narrow that rounding matters. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                             int derivatives, lrcsi_meter *meter, lrcs_work *work,
-                             lrcsi_wall_terms *terms)
+                             const lrcsi_clear_shapes *clear, const lrcsi_masked_band *band,
+                             const lrcsi_visible_area *visible, int derivatives, lrcsi_meter *meter,
+                             lrcs_work *work, lrcsi_wall_terms *terms)
 {
     const lrcsi_view *view = classification->view;
     const lrcs_scene *scene = view->prepared->scene;
@@ -603,7 +603,8 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
     for (uint32_t i = 0; i < scene->part_count && plan->patches; i++) {
-        if (!lrcsi_shape_is_round(scene->part[i].kind) || !scene->part[i].rigid) {
+        if (!lrcsi_shape_is_round(scene->part[i].kind) || !scene->part[i].rigid ||
+            lrcsi_is_clear_shape(clear, i)) {
             continue;
         }
         for (int side = 1; side >= -1 && has_memory; side -= 2) {

@@ -28,17 +28,18 @@
 
 #include "integrate/plan/plan.h"
 #include "integrate/wall/wall_terms.h"
+#include "view/clear.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity/masked_band.h"
 
-/* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
-   whose hidden facets are masked; derivatives: 1 if the integrals are to include what derivatives
-   need; terms[facet_count] of the sectors that are integrated over their patches
-   (integrate/wall/clear_sectors.h): these are left out. Returned: the terms of the others. Without
-   enough memory, or if steps run out, no sector is found. */
+/* Finds the sectors, and what their facets add. Given: the shapes that have closed forms instead;
+   the visible areas of all facets; a band whose hidden facets are masked; derivatives: 1 if the
+   integrals are to include what derivatives need; terms[facet_count] of the sectors that are
+   integrated over their patches (integrate/wall/clear_sectors.h): these are left out. Returned: the
+   terms of the others. Without enough memory, or if steps run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_masked_band *band, const lrcsi_visible_area *visible,
-                             int derivatives, lrcsi_meter *meter, lrcs_work *work,
-                             lrcsi_wall_terms *terms);
+                             const lrcsi_clear_shapes *clear, const lrcsi_masked_band *band,
+                             const lrcsi_visible_area *visible, int derivatives, lrcsi_meter *meter,
+                             lrcs_work *work, lrcsi_wall_terms *terms);
 
 #endif
