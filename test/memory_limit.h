@@ -63,13 +63,13 @@ static int memory_limit_serves(const memory_case *s, unsigned char *memory, size
 }
 
 /* Tries every size; of those that need much, the first 1024 sizes, the last 128, every 127th
-   between or, if these are more than 1000, so many of them; and of those between which one
+   between or, if these are more than 500, so many of them; and of those between which one
    suffices first, all, or every 17th if they are more than 127. */
 static void check_memory_limit(const memory_case *s)
 {
     unsigned char *memory = malloc(s->need + MEMORY_CANARY);
     assert_non_null(memory);
-    const size_t stride = s->need / 1000 > 127 ? s->need / 1000 : 127;
+    const size_t stride = s->need / 500 > 127 ? s->need / 500 : 127;
     int served = 0;
     size_t step = 1;
     for (size_t size = 0; size <= s->need; size += step) {

@@ -282,7 +282,7 @@ static void insides_and_outsides_add_up_to_those_of_many_points(void **state)
 {
     (void)state;
     static patch_scene s;
-    for (int i = 0; i < 30; i++) {
+    for (int i = 0; i < 15; i++) {
         const open_wall w = wall_at_random(i);
         const lrcs_brdf brdf = {i % 2 ? 0.2 : 0, 0.3, between(0.2, 1), between(0, 2)};
         double d[3];
@@ -303,7 +303,7 @@ static void answers_agree_within_their_errors(void **state)
 {
     (void)state;
     static patch_scene s;
-    for (int i = 0; i < 30; i++) {
+    for (int i = 0; i < 15; i++) {
         const open_wall w = wall_at_random(i);
         const lrcs_brdf brdf = {i % 3 ? 0.3 : 0, i % 3 == 1 ? 0 : 0.3, between(0.05, 1),
                                 between(0, 3)};

@@ -228,7 +228,7 @@ static void means_are_those_of_the_true_surface(void **state)
     (void)state;
     for (int uneven = 0; uneven < 2; uneven++) {
         known = 0;
-        for (int i = 0; i < 40; i++) {
+        for (int i = 0; i < 20; i++) {
             shape_check(uneven);
         }
         assert_true(known > 133);
