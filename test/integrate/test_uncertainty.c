@@ -24,7 +24,7 @@ static int try_run(const lrcs_prepared *prepared, const double direction[3], int
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_pose pose;
     options.method = method;
-    options.tolerance = 1e-9; /* means over patches have a small remainder */
+    options.tolerance = 1e-8; /* means over patches have a small remainder */
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     return lrcs_uncertainty_run(prepared, &pose, &options, how, work, &out->result, out->d,
                                 &out->u);
