@@ -304,8 +304,7 @@ static void capsules_contain_what_is_below_them(void **state)
                 const uint32_t lane = place / size;
                 const lrcsi_tree_capsule c = lrcsi_tree_lane_capsule(
                     &tree, level, lane / LRCSI_TREE_LANES, lane % LRCSI_TREE_LANES);
-                const lrcsi_tree_capsule own =
-                    facet_capsule(tree.order[place]);
+                const lrcsi_tree_capsule own = facet_capsule(tree.order[place]);
                 assert_true(isfinite(c.radius) && isfinite(own.radius));
                 for (int k = 0; k < 3; k++) {
                     const double *x = vertex[facet[tree.order[place]].corner[k]].x;
