@@ -2,7 +2,7 @@
 /* Outlines of true shapes beside those of their facets: the areas along all edges together, against
    those between both outlines, measured along rays through points of every edge. And which planes a
    shape is in front of. */
-#include "visibility/proximity/outline.h"
+#include "visibility/proximity/outline_area.h"
 
 #include <string.h>
 

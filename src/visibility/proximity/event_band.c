@@ -44,11 +44,11 @@
    considered, and y is gained or lost along the event edge of Q that is nearest to it in
    projection, however far behind y that is: the contour of the facets may lie far below the true
    one, and what Q hides depends on projections alone. It is gained or lost only within the region
-   of outline.c, 2. In it delta is the distance in projection of x from y, and for the plane of a
-   facet the error of outline.c, 1, as well. So of the rectangle along each edge only what is within
-   the region's depths counts, and at most the area of the region. The edge itself remains in its
-   band, with more than sqrt(2) delta and the errors of positions on either side, because no depth
-   is negative: so it crosses no facet that meets no band.
+   of outline_area.c, 1. In it delta is the distance in projection of x from y, and for the plane of
+   a facet the error of outline.c, 1, as well. So of the rectangle along each edge only what is
+   within the region's depths counts, and at most the area of the region. The edge itself remains in
+   its band, with more than sqrt(2) delta and the errors of positions on either side, because no
+   depth is negative: so it crosses no facet that meets no band.
 
    5. Aligned points. Let x now be the point of the true surface whose projection is that of
    y, so that both lie on a line along d, at a distance of at most 180 e_P. Let every other part Q
@@ -88,7 +88,7 @@
    rounding of places, for facets of Q that are not in front or behind; 1.f of proximity_band.c
    tells on which side. It is at most the sum of the fractions of aligned points; along an event
    edge it may instead be known together for the whole face, because each point is attributed to
-   the nearest event edge of Q only (4): between the loss and the gain of outline.c or, where
+   the nearest event edge of Q only (4): between the loss and the gain of outline_area.c or, where
    nothing else is near, with its sign. The other two integrals are over regions along the sides
    of U, no wider than e_P, where V exceeds the side or falls short of it. For each side the
    areas of both are equal, by symmetry. If the side is free and farther than the slack of P and

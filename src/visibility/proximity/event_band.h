@@ -10,6 +10,7 @@
 #include "scene/proximity.h"
 #include "visibility/index/edge_search.h"
 #include "visibility/proximity/edge_rectangle.h"
+#include "visibility/proximity/outline_area.h"
 #include "visibility/proximity/part_order.h"
 #include "visibility/proximity/proximity_events.h"
 

@@ -37,13 +37,13 @@
    in truth and for the facets: the difference is 0.
 
    If the point is visible, K' begins at depth 0 over the edge, 0 <= t <= L in the coordinates of
-   outline.c, 2, and K at a depth d(t) of at most w: K lies within k of K', and points of K' farther
-   than k from its boundary lie in K, since otherwise a straight line separates such a point from K,
-   and a point of K' is farther than k from that line. All points from depth d(t) to 1.2 k lie in
-   K, among them those within k of the contour: N contains the point of K' at depth w above such a
-   point, K a point within k of that, at depth 3 k or more; the line from there through a point y of
-   depth at most 1.2 k leads to the polygon of outline.c within 2 k of y along the edge. So the true
-   shapes leave visible the integral of d(t) more.
+   outline_area.c, 1, and K at a depth d(t) of at most w: K lies within k of K', and points of K'
+   farther than k from its boundary lie in K, since otherwise a straight line separates such a point
+   from K, and a point of K' is farther than k from that line. All points from depth d(t) to 1.2 k
+   lie in K, among them those within k of the contour: N contains the point of K' at depth w above
+   such a point, K a point within k of that, at depth 3 k or more; the line from there through a
+   point y of depth at most 1.2 k leads to the polygon of outline_area.c within 2 k of y along the
+   edge. So the true shapes leave visible the integral of d(t) more.
 
    Each point at which K and K' differ is attributed to the event edge of Q nearest to it. Near the
    end a that is not decided by the perpendicular. Such a point is at a depth y of at most D, the
@@ -58,9 +58,9 @@
    The conditions may hold for a part of an edge only. Such a part counts as an edge if it begins at
    a, or at least w from there, and ends likewise: what is left of the edge follows it, at an angle
    of 0. The other parts, the gaps, count as edges of which nothing is known: along these, what the
-   true shapes leave visible more is between the loss and the gain of outline.c, 2, no deeper than
-   the depths of the whole edge, nor than k. Parts farther than w from both U and V matter to no
-   point of the face.
+   true shapes leave visible more is between the loss and the gain of outline_area.c, 1, no deeper
+   than the depths of the whole edge, nor than k. Parts farther than w from both U and V matter to
+   no point of the face.
 
    A closed part Q may also pierce the plane, if it reaches far enough in front of it. K and K' are
    then those of its part in front (outline.c, 1), and so is k. K' is a convex polygon, the sides of
@@ -385,8 +385,8 @@ typedef struct face_area {
     double area, error;
 } face_area;
 
-/* Where nothing is known, that is between the loss and the gain of outline.c. Of a part of the edge
-   its depths tell: a loss may be 2 k beyond its ends. */
+/* Where nothing is known, that is between the loss and the gain of outline_area.c. Of a part of the
+   edge its depths tell: a loss may be 2 k beyond its ends. */
 static face_area unknown_area(const face_job *job, const lrcsi_edge_margin *m,
                               lrcsi_segment_part part)
 {

@@ -37,9 +37,9 @@ static inline int lrcsi_edge_faces_hold(const lrcsi_edge_faces *faces, uint32_t 
 
 /* Fills face[LRCSI_FACES_OF_PART * part_count]: the areas along all event edges over each face.
    Where the margin of an edge, or of a part of one, lies on the face alone, its area is known with
-   its sign; elsewhere it is between the loss and the gain of visibility/proximity/outline.h. Also
-   returned: faces[event]. Where steps or memory run out, fewer margins are known. Scratch memory is
-   released. */
+   its sign; elsewhere it is between the loss and the gain of visibility/proximity/outline_area.h.
+   Also returned: faces[event]. Where steps or memory run out, fewer margins are known. Scratch
+   memory is released. */
 void lrcsi_face_margins_make(lrcsi_event_bands *bands, const lrcsi_classification *classification,
                              lrcs_work *work, lrcsi_face_margin *face, lrcsi_edge_faces *faces);
 

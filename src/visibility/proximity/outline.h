@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The outline of a true curved shape in a view, beside that of its facets: how much area lies
-   between the two along an edge. It does not decide which facets the shape's shadow meets
-   (visibility/proximity/proximity_band.h).
+/* The outline of a true curved shape in a view, beside that of its facets. It does not decide which
+   facets the shape's shadow meets (visibility/proximity/proximity_band.h).
 
    Q is a part that the library makes, placed without distortion, and closed or with one flat
    opening. B is its true solid, a convex body, S^ the solid that its facets enclose, with flat
    openings closed, and k its Hausdorff distance (bounds.hausdorff). K and K' are the images of B
    and S^ in projection along the direction to the laser. For a point y, and x at a distance of at
    most delta from it in projection: y is gained if it is in K' and x not in K, and lost if x is in
-   K and y not in K'. outline.c proves what is claimed here. */
+   K and y not in K'. outline.c and
+   outline_area.c prove what is claimed. */
 #ifndef LRCSI_OUTLINE_H
 #define LRCSI_OUTLINE_H
 
@@ -48,37 +48,5 @@ int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view,
    within a distance of *err, as above. Returns 0 if it is not. */
 int lrcsi_outline_cut(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
                       double plane_err, lrcsi_outline *cut, double *err);
-
-/* Upper bounds of the areas in projection, along one edge, where points y may be gained and lost,
-   and of the distances of such points from the edge. `width` times delta is to be added to the
-   areas, LRCSI_ROOT_2_OUTWARD times delta to the distances. If nothing is known, these four are
-   infinite, and width is 0. */
-typedef struct lrcsi_outline_areas {
-    double gain, loss;
-    double gain_depth, loss_depth;
-    double width;
-} lrcsi_outline_areas;
-
-/* Given: a contour edge of the part from a to b in view coordinates; the side of its facets, 1 left
-   and -1 right. */
-lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *outline, const double a[3],
-                                             const double b[3], int side);
-
-/* The signed area in projection between such an edge, or a part of it, and the outline of the true
-   solid over it: positive where the facets reach farther than the solid. */
-typedef struct lrcsi_outline_margin {
-    double area, error;  /* infinite error: not known */
-    double width;        /* times an error of the outline's position: to be added to the error */
-    double depth;        /* an upper bound of the difference of the largest and the least depth of
-                           the outline beside that part, or of 0 */
-    double end_depth[2]; /* upper bounds of the distance between outline and edge in projection, up
-                            to 2 k before and behind the ends a and b; if a part is given, they may
-                            be much larger than for the whole edge */
-} lrcsi_outline_margin;
-
-/* Given: as above; the part of the edge, as fractions of the way from a to b: from L <= t <= to L
-   in the terms of outline.c. */
-lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *outline, const double a[3],
-                                               const double b[3], int side, double from, double to);
 
 #endif

@@ -40,8 +40,8 @@
    the points y in K' and not in K, less those in K and not in K'; and by those that are in K where
    x is not, less the reverse. The first are a margin along the edge, of which t0 <= t <= t1 is
    attributed to the facet that contains that part of the edge: its signed area follows from
-   visibility/proximity/outline.c, 3. The second follow from the displacement of points. Beyond the
-   ends of the edge, points are attributed as in face_margin.c, D being larger by sqrt(2) delta.
+   visibility/proximity/outline_area.c, 2. The second follow from the displacement of points. Beyond
+   the ends of the edge, points are attributed as in face_margin.c, D being larger by sqrt(2) delta.
 
    Displacement. Let s be the depth of a point over t, and D_s and D_t the components of x - y along
    depth and along the edge, at most delta in size. They are continuous over the wall, since points
@@ -156,9 +156,9 @@ static lrcsi_wall_displacement margin_displacement(const lrcsi_wall_margins *job
 }
 
 /* Adds the part of the margins on a facet: its area, with the depths of the whole edge. The area is
-   known to within: the bounds of outline.c and errors of positions; where the part of the edge in
-   it ends; the points at the ends of the edge; what the same area of the view plane stands for on
-   other facets; the displacement of points. */
+   known to within: the bounds of outline_area.c and errors of positions; where the part of the edge
+   in it ends; the points at the ends of the edge; what the same area of the view plane stands for
+   on other facets; the displacement of points. */
 static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
                              const lrcsi_outline_margin *margin, const double turn[2],
                              const lrcsi_margin_facet *one)
