@@ -13,6 +13,7 @@
 #include <lrcs/profile.h>
 #include <lrcs/read.h>
 #include <lrcs/recipe.h>
+#include <lrcs/refine.h>
 #include <lrcs/run.h>
 #include <lrcs/scene.h>
 #include <lrcs/shape.h>

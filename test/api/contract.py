@@ -14,6 +14,9 @@ NEVER = {
     # the recipe's shapes and materials are checked as the scene is built
     "lrcs_prepare_run": {"LRCS_E_ARGUMENT"},
     "lrcs_host_scene_prepare": {"LRCS_E_ARGUMENT"},
+    # it returns no status; what it calls `build` are options, not the function of that name
+    "lrcs_refine_halvings": {"LRCS_E_ARGUMENT", "LRCS_E_INDEX", "LRCS_E_LIMIT", "LRCS_E_MEMORY", "LRCS_E_NAME",
+                             "LRCS_E_NUMBER"},
     # a finer division that cannot be built is not used
     "lrcs_host_scene_refine": {"LRCS_E_ARGUMENT", "LRCS_E_INDEX", "LRCS_E_LIMIT", "LRCS_E_MEMORY", "LRCS_E_NAME",
                                "LRCS_E_NUMBER", "LRCS_E_SYSTEM", "LRCS_E_UNSUPPORTED"},

@@ -4,7 +4,7 @@
 #define _DEFAULT_SOURCE 1 /* madvise, and MADV_HUGEPAGE where there is one */
 #include "host/run/memory.h"
 
-#include "host/run/refine.h"
+#include "host/run/levels.h"
 
 #include <stdlib.h>
 #include <string.h>

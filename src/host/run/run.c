@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "analysis/forecast.h"
-#include "host/run/refine.h"
+#include "host/run/levels.h"
 #include "integrate/sigma.h"
 #include "scene/prepare.h"
 

@@ -2,7 +2,7 @@
 /* From a path to a scene, and on to sigma. It decides the kind of a file, the folders of the files
    that it names, and which notices to issue. The core computes the geometry. */
 #include "host/files/input.h"
-#include "host/run/refine.h"
+#include "host/run/levels.h"
 #include "host/scene/binding.h"
 #include "host/scene/demo.h"
 #include "host/scene/model.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "host/run/refine.h"
+#include "host/run/levels.h"
 #include "host/run/run.h"
 #include "host/run/workers.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Finer divisions of a scene's curved shapes, for poses whose bound would miss the tolerance. */
-#ifndef LRCSI_HOST_REFINE_H
-#define LRCSI_HOST_REFINE_H
+#ifndef LRCSI_HOST_LEVELS_H
+#define LRCSI_HOST_LEVELS_H
 
 #include <lrcs/load.h>
 
