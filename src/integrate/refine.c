@@ -304,7 +304,8 @@ static void finer_divisions_run(refine_job *job, size_t mark, lrcs_work *work, l
             work->used = mark;
             status = division_run(job, work);
         } while (status != LRCS_OK && lrcsi_refine_less(halvings, parts, tried));
-        if (status != LRCS_OK || !(job->result.bound_m2 < result->bound_m2)) {
+        const int is_met = !(job->result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+        if (status != LRCS_OK || !(is_met || job->result.bound_m2 < result->bound_m2)) {
             return;
         }
         *result = job->result;
