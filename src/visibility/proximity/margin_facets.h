@@ -56,8 +56,7 @@ typedef struct lrcsi_margin_facets {
     lrcsi_sort_item *order;           /* the same, by where they begin to be near the edge */
     double *end_max;                  /* the largest t to which these or those before are near it */
     lrcsi_margin_plane plane[LRCSI_MARGIN_PLANES]; /* below the part of this edge */
-    int plane_count;     /* so many of them are made: the others when they are
-                                                  needed */
+    int plane_count;     /* so many of them are made: the others when they are needed */
     lrcsi_marks reached; /* facets: those of the edge under examination */
 } lrcsi_margin_facets;
 
