@@ -199,7 +199,7 @@ size_t lrcs_refine_need(uint32_t part_count)
                           lrcsi_work_blocks(2, part_count, 1));
 }
 
-/* Which parts are halved together with the best one depends on how far the error must fall. If a
+/* How parts are halved together with the best one depends on how far the error must fall. If a
    single part that cannot be halved has more error than the tolerance leaves, this is out of reach.
    Of the two choices, for the parts that cause the error and for all alike, the second one is used
    if it takes about as few facets. */
@@ -212,7 +212,6 @@ static int halvings_choose(const lrcs_scene *scene, const lrcs_build_options *bu
     const double left = error_left(options, result);
     double allowed = TOLERANCE_FRACTION * left;
     alike_rule rule = {HUGE_VAL, 0.0, 0.0}; /* only the best part */
-    int reachable = 1;
     part_choice *choice = lrcsi_work_take(work, parts, sizeof *choice);
     unsigned char *from = lrcsi_work_take(work, parts, 1);
     unsigned char *alike = lrcsi_work_take(work, parts, 1);
@@ -226,8 +225,10 @@ static int halvings_choose(const lrcs_scene *scene, const lrcs_build_options *bu
     memcpy(alike, halvings, parts);
     choices_start(scene, result, part_error_m2, from, choice);
     for (uint32_t i = 0; i < parts; i++) {
-        reachable &= choice[i].error <= left ||
-                     part_can_be_halved(build, options->tolerance, &choice[i], from[i]);
+        if (!(choice[i].error <= left) &&
+            !part_can_be_halved(build, options->tolerance, &choice[i], from[i])) {
+            return 0;
+        }
         if (from[i] > 0 && result->budget.tessellation_m2 > LARGE_STEP * allowed) {
             rule = (alike_rule){ALIKE_FRACTION, ALIKE_FACETS, ALIKE_EXCESS};
         }
@@ -239,10 +240,7 @@ static int halvings_choose(const lrcs_scene *scene, const lrcs_build_options *bu
         SHARED_MAX * facets) {
         memcpy(halvings, alike, parts);
     }
-    if (!reachable) {
-        memcpy(halvings, from, parts);
-    }
-    return reachable && memcmp(halvings, from, parts) != 0;
+    return memcmp(halvings, from, parts) != 0;
 }
 
 int lrcs_refine_halvings(const lrcs_scene *scene, const lrcs_build_options *build,

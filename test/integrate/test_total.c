@@ -215,7 +215,7 @@ static void check_sigma(const lrcsi_total *got, const plain_total *want)
 /* The same sum, every facet by itself; in *total its counts. */
 static lrcsi_total_sums one_by_one(const summed *s, const lrcsi_areas *areas, lrcsi_total *total)
 {
-    lrcsi_total_run run = {.view = &s->view, .plan = &s->plan, .areas = areas};
+    lrcsi_total_run run = {.view = &s->view, .plan = &s->plan, .areas = areas, .clear = &s->clear};
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         lrcsi_total_add_facet(&run, f);
     }

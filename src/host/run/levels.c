@@ -82,8 +82,6 @@ void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
     free(levels);
 }
 
-/* --- levels ----------------------------------------------------------------------------------- */
-
 /* Builds and prepares a scene; NULL if that fails. */
 static lrcs_host_scene *level_build(const lrcs_host_scene *base,
                                     const struct lrcsi_host_levels *levels,

@@ -160,7 +160,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                            .areas = areas,
                            .curve_terms = curve_terms,
                            .band = band,
-                           .clear = clear->count > 0 ? clear : NULL,
+                           .clear = clear,
                            .details = *details};
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         part_error[i] = 0;
@@ -177,9 +177,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     for (uint32_t i = 0; i < p->scene->material_count; i++) { /* 2 */
         lrcsi_total_add_material(&run, i);
     }
-    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) { /* 3 */
-        if (run.clear->part[i]) {
-            add_clear_shape(&run, i, run.clear->slab[i]);
+    for (uint32_t i = 0; i < p->scene->part_count; i++) { /* 3 */
+        if (lrcsi_is_clear_shape(clear, i)) {
+            add_clear_shape(&run, i, clear->slab[i]);
         }
     }
     if (run.bounds_tessellation) { /* 4 */

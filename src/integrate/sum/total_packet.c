@@ -33,7 +33,7 @@ static inline int side_may_be_visible(const lrcsi_total_run *run, uint32_t facet
 /* May some facets not be visible, or not be added in packets? */
 static inline int may_have_singles(const lrcsi_total_run *run, int side)
 {
-    return run->areas->visible || run->clear ||
+    return run->areas->visible || run->clear->count > 0 ||
            run->view->prepared->batches.redundant >= least_redundant(run, side);
 }
 
@@ -167,7 +167,7 @@ static uint32_t add_singles(lrcsi_total_run *run, int side, uint32_t *list, uint
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t left = 0;
-    if (run->clear) {
+    if (run->clear->count > 0) {
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_total_in_clear_shape(run, facet[list[k]])) {
                 lrcsi_total_add_clear(run, facet[list[k]]);

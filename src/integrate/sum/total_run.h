@@ -52,7 +52,7 @@ typedef struct lrcsi_total_run {
     const lrcsi_areas *areas;
     const lrcsi_curve_terms *curve_terms; /* NULL: all normals are flat */
     const lrcsi_masked_band *band;        /* NULL: none was made */
-    const lrcsi_clear_shapes *clear;      /* NULL: no shape is evaluated by its closed form */
+    const lrcsi_clear_shapes *clear;      /* the shapes that are evaluated by their closed forms */
     lrcsi_total_details details;
     int bounds_tessellation; /* 1: facets replace curved shapes, and that error can be bounded */
     lrcsi_patches patches;
@@ -65,7 +65,7 @@ typedef struct lrcsi_total_run {
 /* Is what a facet reflects part of a closed form? */
 static inline int lrcsi_total_in_clear_shape(const lrcsi_total_run *run, uint32_t facet)
 {
-    return run->clear && run->clear->part[run->view->prepared->scene->facet_part[facet]];
+    return lrcsi_is_clear_shape(run->clear, run->view->prepared->scene->facet_part[facet]);
 }
 
 /* --- total_facet.c ---------------------------------------------------------------------------- */

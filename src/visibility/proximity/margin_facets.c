@@ -268,13 +268,20 @@ static int slice_is_below(lrcsi_margin_facets *all, const lrcsi_edge_margin *m, 
     return below;
 }
 
+/* The same as lrcsi_margin_facet_near, given delta of the facet. */
+static lrcsi_segment_part facet_near(const lrcsi_view *view, const lrcsi_edge_margin *m,
+                                     uint32_t facet, double lateral)
+{
+    const lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(view, facet, m->edge, facet_slack(m, lateral));
+    const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
+    return part_near(m, &box, &slice, 0);
+}
+
 lrcsi_segment_part lrcsi_margin_facet_near(const lrcsi_view *view, const lrcsi_edge_margin *m,
                                            uint32_t facet)
 {
-    const double slack = facet_slack(m, facet_lateral(view, facet));
-    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(view, facet, m->edge, slack);
-    const lrcsi_slice slice = lrcsi_edge_rectangle_slice(view, facet, &box);
-    return part_near(m, &box, &slice, 0);
+    return facet_near(view, m, facet, facet_lateral(view, facet));
 }
 
 /* Makes the data of a facet that N meets, or adds a gap if its part of the wall cannot be used. */
@@ -299,7 +306,7 @@ static void facet_make(lrcsi_margin_facets *all, const lrcsi_edge_margin *m, uin
     unproved_add(all, facet, m->part, separated ? unproved : 0);
     one->usable = 1;
     one->lateral = one->farthest = facet_lateral(view, facet);
-    const lrcsi_segment_part near = lrcsi_margin_facet_near(view, m, facet);
+    const lrcsi_segment_part near = facet_near(view, m, facet, one->lateral);
     one->near[0] = near.from * m->length;
     one->near[1] = near.to * m->length;
     facet_position(view->prepared, facet, &one->patch);
