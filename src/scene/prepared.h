@@ -82,6 +82,9 @@ typedef struct lrcsi_proximity_pair {
                              slack and in front of the plane of the other */
     float back_fraction;  /* the same, behind that plane */
     float row_fraction;   /* of the fraction of its rows with such points (lrcsi_proximity_rows) */
+    float gain_fraction;  /* at most back_fraction: the same where the true surface around the other
+                             facet faces the laser (scene/proximity_contact.h) */
+    float loss_fraction;  /* likewise, at most front_fraction */
 } lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {

@@ -11,6 +11,7 @@
 #include "mesh/contact/tree_capsule.h"
 #include "mesh/contact/tree_walk.h"
 #include "scene/proximity.h"
+#include "scene/proximity_contact.h"
 #include "scene/proximity_pair.h"
 
 /* A fraction as a float, rounded up. */
@@ -42,10 +43,10 @@ static double slack_along(const lrcs_prepared *p, uint32_t other, double slack,
 /* Adds a pair if part of the facet is within the slack of the other. Given: how far the facet's
    points are displaced. */
 static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, double slack,
-                         const lrcsi_displacement *displacement, lrcs_work *work)
+                         const lrcsi_contact_wall *wall, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
-    const double along = slack_along(p, other, slack, displacement);
+    const double along = slack_along(p, other, slack, &wall->displacement);
     const lrcsi_slice slice = lrcsi_proximity_slice(p, facet, other, slack, along);
     if (slice.count == 0) {
         return LRCS_OK;
@@ -65,8 +66,18 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
         }
         proximity->pair = proximity->pair ? proximity->pair : more;
     }
-    proximity->pair[proximity->count++] = (lrcsi_proximity_pair){
-        facet, other, fraction_float(of.front), fraction_float(of.back), fraction_float(rows)};
+    lrcsi_contact_fractions contact = {of.back, of.front};
+    if (!lrcsi_contact_fractions_make(p, wall, facet, other, slack, along, &slice, &contact)) {
+        contact = (lrcsi_contact_fractions){of.back, of.front};
+    }
+    proximity->pair[proximity->count++] =
+        (lrcsi_proximity_pair){facet,
+                               other,
+                               fraction_float(of.front),
+                               fraction_float(of.back),
+                               fraction_float(rows),
+                               fraction_float(lrcsi_min(contact.gain, of.back)),
+                               fraction_float(lrcsi_min(contact.loss, of.front))};
     return LRCS_OK;
 }
 
@@ -88,10 +99,10 @@ enum { PAIR_LANES = LRCSI_TREE_LANES };
 
 /* The facets of curved parts in a leaf. */
 typedef struct pair_leaf {
-    unsigned lanes;                              /* theirs */
-    lrcsi_box box;                               /* around them */
-    double reach;                                /* the largest of their parts */
-    lrcsi_displacement displacement[PAIR_LANES]; /* of their points */
+    unsigned lanes;                      /* theirs */
+    lrcsi_box box;                       /* around them */
+    double reach;                        /* the largest of their parts */
+    lrcsi_contact_wall wall[PAIR_LANES]; /* how their points are displaced */
 } pair_leaf;
 
 static uint32_t lane_facet(const lrcsi_tree *tree, uint32_t leaf, uint32_t lane)
@@ -112,7 +123,7 @@ static pair_leaf pair_leaf_make(const lrcs_prepared *p, const lrcsi_tree *tree, 
             lrcsi_box_add(&of.box, box.high);
             of.lanes |= 1u << lane;
             of.reach = lrcsi_max(of.reach, reach);
-            of.displacement[lane] = lrcsi_proximity_displacement(p, facet);
+            of.wall[lane] = lrcsi_contact_wall_make(p, facet);
         }
     }
     return of;
@@ -144,12 +155,12 @@ static double boxes_gap(const lrcsi_box *a, const lrcsi_box *b)
    order is added for the other facet. Given: the gap between their boxes, and the displacement of
    the first one's points. */
 static int pairs_of_two(lrcs_prepared *p, uint32_t facet, uint32_t other, double gap,
-                        const lrcsi_displacement *displacement, lrcs_work *work)
+                        const lrcsi_contact_wall *wall, lrcs_work *work)
 {
-    const lrcsi_displacement none = {.known = 0};
+    const lrcsi_contact_wall none = {.known = 1};
     const uint32_t *part = p->scene->facet_part;
     const double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
-    int status = gap <= slack ? proximity_add(p, facet, other, slack, displacement, work) : LRCS_OK;
+    int status = gap <= slack ? proximity_add(p, facet, other, slack, wall, work) : LRCS_OK;
     if (status == LRCS_OK && p->proximity.reach[part[other]] == 0) {
         const double back = lrcsi_proximity_slack(p, part[other], part[facet]);
         status = gap <= back ? proximity_add(p, other, facet, back, &none, work) : LRCS_OK;
@@ -201,8 +212,8 @@ static int pairs_of_leaf(lrcs_prepared *p, uint32_t leaf, const pair_leaf *of, p
             const uint32_t facet = lane_facet(tree, leaf, lane);
             if (part[other] != part[facet]) {
                 const lrcsi_box box = lrcsi_tree_box(&tree->node[0][leaf], lane);
-                status = pairs_of_two(p, facet, other, boxes_gap(&box, &other_box),
-                                      &of->displacement[lane], work);
+                status = pairs_of_two(p, facet, other, boxes_gap(&box, &other_box), &of->wall[lane],
+                                      work);
             }
         }
     }

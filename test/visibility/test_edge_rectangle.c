@@ -170,6 +170,20 @@ static void an_edge_is_behind_a_facet_if_it_is_three_slacks_below_its_plane(void
     assert_false(lrcsi_edge_rectangle_behind(&view, 0, edge, 0.01 * unit));
 }
 
+/* The edge is at z = 0.9 x - 7.2, in front of the facet's plane from x = 8 on; beside the facet,
+   which ends at x = 4, and in 2 slack beyond that it is behind. */
+static void only_the_part_beside_a_facet_has_to_be_behind_it(void **state)
+{
+    (void)state;
+    triangle_begin();
+    uint32_t v = side_add(-2, 1, -9, 18, 1, 9);
+    look_from_above();
+    const lrcsi_edge *edge = edge_between(v, v + 1);
+    assert_true(lrcsi_edge_rectangle_behind(&view, 0, edge, 0.7 * unit));  /* -2.34 at 5.4 */
+    assert_false(lrcsi_edge_rectangle_behind(&view, 0, edge, 0.8 * unit)); /* -2.16 at 5.6 */
+    assert_false(lrcsi_edge_rectangle_behind_plane(&view, 0, edge, 1e-3 * unit));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -179,6 +193,7 @@ int main(void)
         cmocka_unit_test(a_segment_is_in_a_rectangle_in_part),
         cmocka_unit_test(nothing_of_a_facet_is_near_a_distant_edge),
         cmocka_unit_test(an_edge_is_behind_a_facet_if_it_is_three_slacks_below_its_plane),
+        cmocka_unit_test(only_the_part_beside_a_facet_has_to_be_behind_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

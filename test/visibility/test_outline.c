@@ -369,6 +369,31 @@ static void tubes_and_flat_parts_have_no_outline(void **state)
     assert_false(lrcsi_outline_make(&view, 1).known);
 }
 
+/* Boxes and plates are what their facets are: between both outlines there is nothing. */
+static void boxes_and_plates_have_exact_outlines(void **state)
+{
+    (void)state;
+    const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {1, 2, 3}};
+    const double direction[3] = {0.3, 0.2, 1};
+    for (int plate = 0; plate < 2; plate++) {
+        view_make(&box, 1e-1, (const double[3]){0, 0, -3}, direction, 0, 0, 0);
+        const lrcsi_outline o = lrcsi_outline_make_exact(&view, (uint32_t)plate, 0x1p-20);
+        const double *a = view.point[scene.facet[scene.part[plate].first_facet].corner[0]].x;
+        const double *b = view.point[scene.facet[scene.part[plate].first_facet].corner[1]].x;
+        const double length = hypot(b[0] - a[0], b[1] - a[1]);
+        assert_true(o.known && o.is_exact);
+        check_same(o.k, 0x1p-20);
+        const lrcsi_outline_margin margin = lrcsi_outline_margin_make(&o, a, b, 1, 0.25, 0.5);
+        check_same(margin.area, 0);
+        check_same(margin.error, 0);
+        check_same(margin.depth, 0);
+        check_most(sqrt(2) * (0.25 * length), margin.width);
+        assert_true(isinf(lrcsi_outline_margin_make(&o, a, b, 0, 0, 1).error));
+    }
+    view_make(&shapes[1], 1e-1, (const double[3]){0, 0, -1}, direction, 0, 0, 0);
+    assert_false(lrcsi_outline_make_exact(&view, 0, 0x1p-20).known);
+}
+
 static void nothing_is_known_along_edges_without_length_side_or_outline(void **state)
 {
     (void)state;
@@ -395,6 +420,7 @@ int main(void)
         cmocka_unit_test(areas_beside_circles_are_those_of_their_segments),
         cmocka_unit_test(a_shape_is_in_front_of_the_plane_that_it_stands_on),
         cmocka_unit_test(tubes_and_flat_parts_have_no_outline),
+        cmocka_unit_test(boxes_and_plates_have_exact_outlines),
         cmocka_unit_test(nothing_is_known_along_edges_without_length_side_or_outline),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -158,7 +158,7 @@ static int event_is_behind_receiver(lrcsi_event_bands *bands, const lrcsi_margin
         return lrcsi_part_is_behind(&bands->orders, receiver->facet, part, &unproved) &&
                unproved == 0;
     }
-    return lrcsi_edge_rectangle_behind(bands->view, receiver->facet, edge, slack) ||
+    return lrcsi_edge_rectangle_behind_plane(bands->view, receiver->facet, edge, slack) ||
            lrcsi_face_part_is_behind(bands, receiver->face, part);
 }
 

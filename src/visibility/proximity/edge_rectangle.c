@@ -143,26 +143,67 @@ lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_recta
     return slice;
 }
 
-/* Let q be a point of the edge and y one of the facet, at most `slack` apart in projection, q - y =
-   w - t d with |w| <= slack and w perpendicular to d, and n the facet's unit normal, n . d > 0. If
-   both ends of the edge are more than 3 slack below the plane, 3 slack < -n . (q - y) = t n . d -
-   n . w <= t + slack, so t > 2 slack: q is at least 2 slack behind y. */
-int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
-                                double slack)
+/* Is part of an edge so far behind a facet's plane? Let q be a point of it and y one of the plane,
+   at most `slack` apart in projection, q - y = w - t d with |w| <= slack and w perpendicular to d,
+   and n the facet's unit normal, n . d > 0. If both ends of the part are more than 3 slack below
+   the plane, 3 slack < -n . (q - y) = t n . d - n . w <= t + slack, so t > 2 slack: q is at least
+   2 slack behind y. */
+static int part_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge, double slack,
+                       lrcsi_segment_part part)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
     const uint32_t end[2] = {edge->low, edge->high};
+    double height[2] = {0, 0}; /* of the edge's ends, times n->length */
     double err = lrcsi_edge_rectangle_facet_err(view, facet);
-    int behind = view->facing[facet] != 0;
-    for (int i = 0; i < 2 && behind; i++) {
-        double height = 0;
+    for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
-            height += view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
+            height[i] += view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        double end_err = LRCSI_EDGE_RECTANGLE_ERR * view->point[end[i]].err;
-        behind = height < -(3 * slack + err + end_err) * n->length;
+        err += LRCSI_EDGE_RECTANGLE_ERR * view->point[end[i]].err;
     }
-    return behind;
+    const double from = (1 - part.from) * height[0] + part.from * height[1];
+    const double to = (1 - part.to) * height[0] + part.to * height[1];
+    return view->facing[facet] != 0 && lrcsi_max(from, to) < -(3 * slack + err) * n->length;
+}
+
+int lrcsi_edge_rectangle_behind_plane(const lrcsi_view *view, uint32_t facet,
+                                      const lrcsi_edge *edge, double slack)
+{
+    return part_behind(view, facet, edge, slack, (lrcsi_segment_part){0, 1});
+}
+
+/* The part of an edge beside which a facet is in projection, and what is within a distance of that:
+   all of it if the edge is short. */
+static lrcsi_segment_part part_beside(const lrcsi_view *view, uint32_t facet,
+                                      const lrcsi_edge *edge, double distance)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const double *p = view->point[edge->low].x;
+    const double *q = view->point[edge->high].x;
+    const double ab[2] = {q[0] - p[0], q[1] - p[1]};
+    const double square = ab[0] * ab[0] + ab[1] * ab[1];
+    const double wide = distance / sqrt(square);
+    lrcsi_segment_part part = {HUGE_VAL, -HUGE_VAL};
+    if (!(wide < 0.5)) {
+        return (lrcsi_segment_part){0, 1};
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        const double t = ((x[0] - p[0]) * ab[0] + (x[1] - p[1]) * ab[1]) / square;
+        lrcsi_range_extend(t, &part.from, &part.to);
+    }
+    part.from = lrcsi_min(1, lrcsi_max(0, part.from - wide));
+    part.to = lrcsi_min(1, lrcsi_max(0, part.to + wide));
+    return part;
+}
+
+int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
+                                double slack)
+{
+    const double err =
+        lrcsi_edge_rectangle_facet_err(view, facet) +
+        LRCSI_EDGE_RECTANGLE_ERR * (view->point[edge->low].err + view->point[edge->high].err);
+    return part_behind(view, facet, edge, slack, part_beside(view, facet, edge, 2 * (slack + err)));
 }

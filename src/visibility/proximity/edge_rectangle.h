@@ -55,10 +55,12 @@ lrcsi_segment_part lrcsi_edge_rectangle_part(const lrcsi_edge_rectangle *box, co
 lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side,
                                        double depth);
 
-/* 1 if the edge lies so far behind a facet's plane that wherever it is within `slack` of a point of
-   the facet in projection, it is at least 2 slack behind that point. */
+/* 1 if wherever the edge is within `slack` of a point of a facet in projection, it is at least 2
+   slack behind that point; the same for all points of the facet's plane. */
 int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
                                 double slack);
+int lrcsi_edge_rectangle_behind_plane(const lrcsi_view *view, uint32_t facet,
+                                      const lrcsi_edge *edge, double slack);
 
 /* The errors of positions computed here, of their differences and of what these are compared with,
    as a multiple of the error of view coordinates: at most two positions, three products and three

@@ -275,9 +275,10 @@ static int gain_is_inside(const lrcsi_event_bands *bands, const lrcsi_band_facet
 int lrcsi_event_rim_is_inside(const lrcsi_event_bands *bands, uint32_t event)
 {
     const uint32_t part = bands->events.part[event];
+    const lrcsi_outline *outline = &bands->orders.outline[part];
     const lrcsi_edge_facets on = lrcsi_edge_facets_of(bands->view, bands->events.edge[event], part);
-    return lrcsi_edge_is_rim(&on) && lrcsi_outline_inside(&bands->orders.outline[part], bands->view,
-                                                          bands->view->facing[on.facet[0]]);
+    return outline->known && lrcsi_edge_is_rim(&on) &&
+           lrcsi_outline_inside(outline, bands->view, bands->view->facing[on.facet[0]]);
 }
 
 static lrcsi_outline_areas event_areas(const lrcsi_event_bands *bands, uint32_t event)

@@ -15,8 +15,8 @@
 
 /* An edge whose margin meets more facets is not used: heuristic. */
 #define MARGIN_FACETS_MAX (UINT32_C(1) << 17)
-/* Nor one that may be near a facet with more pairs than this: a large facet that others intersect
-   may have as many as these have facets. */
+/* Nor the part of one that may be near a facet with more pairs than this: a large facet that others
+   intersect may have as many as these have facets. */
 #define MARGIN_PAIRS_MAX 64u
 /* Nor one whose margin may be on facets that are so much more oblique than those to which it is
    attributed. */
@@ -116,14 +116,17 @@ static void pairs_add_gaps(lrcsi_margin_facets *all, const lrcsi_edge_margin *m,
     lrcsi_event_bands *bands = all->bands;
     const lrcs_prepared *p = bands->view->prepared;
     const uint32_t own = p->scene->facet_part[facet];
-    if ((all->pairs[facet] == PAIRS_ALL && !pairs_reduce(all, facet)) ||
-        all->pairs[facet] == PAIRS_MANY) {
+    if (all->pairs[facet] == PAIRS_ALL && !pairs_reduce(all, facet)) {
         lrcsi_edge_gaps_add(gaps, everywhere);
         return;
     }
     const lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(bands->view, facet, m->edge, m->width);
     const lrcsi_slice slice = lrcsi_edge_rectangle_slice(bands->view, facet, &box);
+    if (all->pairs[facet] == PAIRS_MANY) {
+        lrcsi_edge_gaps_add(gaps, part_near(m, &box, &slice, m->width));
+        return;
+    }
     for (uint32_t i = all->first_pair[facet]; i != LRCS_NONE; i = all->next_pair[i]) {
         const uint32_t other = p->proximity.pair[i].other;
         const double slack = lrcsi_proximity_slack(p, own, p->scene->facet_part[other]);

@@ -73,6 +73,13 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     return o;
 }
 
+lrcsi_outline lrcsi_outline_make_exact(const lrcsi_view *view, uint32_t index, double k)
+{
+    const lrcs_part *part = &view->prepared->scene->part[index];
+    const int exact = lrcsi_shape_is_plane_faced(part->kind);
+    return (lrcsi_outline){.part = part, .known = exact, .is_exact = exact, .k = k};
+}
+
 /* The unit normal of a facet's plane, on its front. The narrow facets of a disc are turned by
    rounding far more than the disc: its normal is along the part's axis. Returns the error of the
    normal, for the true surface that the facet stands for. */

@@ -19,6 +19,8 @@
 typedef struct lrcsi_outline {
     const lrcs_part *part;
     int known;           /* 0: the part has no outline here; the other fields are not set */
+    int is_exact;        /* 1: along each of its edges K and K' coincide; of the other fields only k
+                            and err are set */
     lrcsi_support solid; /* scaled */
     double vertex_ratio; /* vertex radius / true radius */
     double origin[3];    /* scaled */
@@ -31,6 +33,10 @@ typedef struct lrcsi_outline {
 } lrcsi_outline;
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t part);
+
+/* The outline of a box or plate, of which the facets are the true surface, with a positive k. Other
+   parts have none of this kind. */
+lrcsi_outline lrcsi_outline_make_exact(const lrcsi_view *view, uint32_t part, double k);
 
 /* Is a rim edge of the part, beside a facet with the given facing, surely inside K'? */
 int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, int facing);

@@ -487,6 +487,9 @@ lrcsi_outline_margin lrcsi_outline_margin_make(const lrcsi_outline *o, const dou
     int known = outline_edge_make(o, a, b, side, &edge);
     edge.from = from * edge.length;
     edge.to = to * edge.length;
+    if (known && o->is_exact) {
+        return (lrcsi_outline_margin){.width = outline_width(&edge)};
+    }
     if (!known || !outline_points_make(&edge, MARGIN_POINTS, point)) {
         return (lrcsi_outline_margin){.error = HUGE_VAL};
     }

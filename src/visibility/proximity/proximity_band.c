@@ -375,6 +375,17 @@ static void meshlet_fractions(band_job *job, uint32_t start, uint32_t end)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
+/* Does a facet face the laser, and the true surface around it (scene/proximity_contact.c, 1)? */
+static int faces_around(const lrcsi_view *view, uint32_t facet)
+{
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t part = p->scene->facet_part[facet];
+    const int is_flat = p->scene->facet_smooth[facet] == 0;
+    const double turn = is_flat ? 0 : 3 * p->scene->part[part].bounds.patch.turn;
+    return view->facing[facet] > 0 &&
+           !lrcsi_view_may_show_both(view, facet, turn + p->proximity.grazing_cos[part]);
+}
+
 /* What is gained and lost near a facet of another part (1.f). Given: the fractions in front of its
    plane and behind it. */
 static void pair_sides(const band_job *job, const lrcsi_proximity_pair *pair,
@@ -457,8 +468,12 @@ static void add_pairs(band_job *job)
         double gain;
         double loss;
         pair_sides(job, pair, of, &gain, &loss);
-        add_fractions(job->band, pair->facet, of.front + of.back, gain, loss,
-                      lrcsi_part_set_of(other));
+        if (p->scene->part[other].solid && faces_around(view, pair->other)) {
+            gain = (double)pair->gain_fraction;
+            loss = (double)pair->loss_fraction;
+        }
+        add_fractions(job->band, pair->facet, lrcsi_min(of.front + of.back, gain + loss), gain,
+                      loss, lrcsi_part_set_of(other));
         job->band->rows[pair->facet] += (double)pair->row_fraction;
         if (on_face) {
             add_face_pair(job, pair);

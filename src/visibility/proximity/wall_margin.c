@@ -27,8 +27,11 @@
 
    The conditions may hold for parts of an edge only: those between the gaps near which one of them
    does not. As in face_margin.c such a part counts as an edge, which the rest of the edge follows
-   without a turn. Of the longest one the margin is used; a facet that is near another part of the
-   edge keeps all of its band about the edge, in addition to what the margin attributes to it.
+   without a turn. A facet that is near a gap keeps all of its band about the edge, in addition to
+   what the margins attribute to it.
+
+   Q may also be a box or a plate. Then K' is K, and the first margin below is empty; but the edge
+   ends at corners, where nothing is known: w is a gap at both ends.
 
    If the point of (f) is visible, then, as in face_margin.c, the facets hide y in N if and only if
    its projection lies in K', and the true shapes hide x if and only if its projection lies in K:
@@ -239,72 +242,89 @@ static int wall_edge_make(lrcsi_wall_margins *job, uint32_t event, uint32_t part
                           lrcsi_edge_margin *m)
 {
     const lrcsi_event_bands *bands = job->bands;
-    job->outline = bands->orders.outline[bands->events.part[event]];
-    job->outline.k = lrcsi_max(job->outline.k, bands->view->prepared->proximity.reach[part]);
+    const uint32_t other = bands->events.part[event];
+    const double reach = bands->view->prepared->proximity.reach[part];
+    job->outline = bands->orders.outline[other];
+    job->outline.k = lrcsi_max(job->outline.k, reach);
+    if (!job->outline.known) {
+        job->outline = lrcsi_outline_make_exact(bands->view, other, reach);
+    }
     return lrcsi_edge_margin_make(bands, &job->outline, event, part, 0, m);
 }
 
-/* Examines an event edge over the wall of a facet that its N meets. Returns the part of it of which
-   the margins are known: the longest free one over the wall. */
-static lrcsi_segment_part event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
+/* Are the margins of a free part of an edge known? If so, adds them. If N is hidden, there are
+   none, and what is open stays in the fractions of bands. */
+static int part_examine(lrcsi_wall_margins *job, const lrcsi_edge_margin *m,
+                        const lrcsi_edge_part *free)
 {
-    static const lrcsi_segment_part unknown_part = {1, 0};
+    double middle = 0;
+    if (!(longest_in_facet(job, free->of, &middle) > 0)) {
+        return 0;
+    }
+    const int visibility = wall_visibility(job, m, middle);
+    return visibility == LRCSI_QUERY_HIDDEN ||
+           (visibility == LRCSI_QUERY_VISIBLE && margin_facets_add(job, m, free));
+}
+
+/* Examines an event edge over the wall of a facet that its N meets. */
+static lrcsi_wall_event event_examine(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
+{
     lrcsi_event_bands *bands = job->bands;
     const uint32_t part = bands->view->prepared->scene->facet_part[facet];
     const lrcsi_margin_receiver receiver = {part, facet, NULL, 0};
     lrcsi_edge_margin m;
     lrcsi_edge_gaps gaps = {.count = 0};
-    lrcsi_edge_part best = {.of = {1, 0}};
+    lrcsi_wall_event found = {.part = part};
     double turn[2];
-    double longest = 0;
-    double middle = 0;
     if (!wall_edge_make(job, event, part, &m)) {
-        return unknown_part;
+        return found;
     }
     lrcsi_margin_facets_find(&job->facets, &m, facet, &gaps);
     if (!lrcsi_edge_gaps_are_all(&gaps)) {
         lrcsi_edge_margin_find_gaps(bands, &m, &receiver, &gaps, turn);
     }
+    for (int end = 0; end < 2 && m.outline->is_exact; end++) { /* the edge ends at a corner */
+        lrcsi_edge_margin_add_end_gap(&m, end, &gaps);
+    }
     for (int i = 0; i <= gaps.count && !lrcsi_edge_gaps_are_all(&gaps); i++) {
         lrcsi_edge_part free;
-        double at = 0;
-        if (lrcsi_edge_margin_part(&m, &gaps, i, turn, &free) &&
-            longest_in_facet(job, free.of, &at) > 0 && free.of.to - free.of.from > longest) {
-            longest = free.of.to - free.of.from;
-            best = free;
-            middle = at;
+        if (lrcsi_edge_margin_part(&m, &gaps, i, turn, &free) && part_examine(job, &m, &free)) {
+            found.known[found.count++] = free.of;
         }
     }
-    if (!(longest > 0)) {
-        return unknown_part;
+    return found;
+}
+
+/* Are the margins of an edge known wherever it is near a facet? */
+static int known_near(lrcsi_wall_margins *job, const lrcsi_wall_event *at, uint32_t facet,
+                      uint32_t event)
+{
+    lrcsi_edge_margin m;
+    if (at->count == 0 || (at->known[0].from <= 0 && at->known[0].to >= 1) ||
+        !wall_edge_make(job, event, at->part, &m)) {
+        return at->count > 0;
     }
-    /* If N is hidden, there is no margin, and what is open stays in the fractions of bands. */
-    const int visibility = wall_visibility(job, &m, middle);
-    return visibility == LRCSI_QUERY_HIDDEN ||
-                   (visibility == LRCSI_QUERY_VISIBLE && margin_facets_add(job, &m, &best))
-               ? best.of
-               : unknown_part;
+    const lrcsi_segment_part near = lrcsi_margin_facet_near(job->bands->view, &m, facet);
+    int known = 0;
+    for (int i = 0; i < at->count && !known; i++) {
+        known = (at->known[i].from <= 0 || near.from >= at->known[i].from) &&
+                (at->known[i].to >= 1 || near.to <= at->known[i].to);
+    }
+    return known;
 }
 
 int lrcsi_wall_margins_add(lrcsi_wall_margins *job, uint32_t facet, uint32_t event)
 {
     const uint32_t part = job->bands->view->prepared->scene->facet_part[facet];
     lrcsi_wall_event *at = &job->event[event];
-    lrcsi_edge_margin m;
-    if ((at->part == part && lrcsi_segment_part_is_empty(at->known)) ||
+    if ((at->part == part && at->count == 0) ||
         !lrcsi_margin_facet_applies(job->bands->view, facet)) {
         return 0;
     }
     if (at->part != part) {
-        *at = (lrcsi_wall_event){part, event_examine(job, facet, event)};
+        *at = event_examine(job, facet, event);
     }
-    if ((at->known.from <= 0 && at->known.to >= 1) || lrcsi_segment_part_is_empty(at->known) ||
-        !wall_edge_make(job, event, part, &m)) {
-        return !lrcsi_segment_part_is_empty(at->known);
-    }
-    const lrcsi_segment_part near = lrcsi_margin_facet_near(job->bands->view, &m, facet);
-    return (at->known.from <= 0 || near.from >= at->known.from) &&
-           (at->known.to >= 1 || near.to <= at->known.to);
+    return known_near(job, at, facet, event);
 }
 
 void lrcsi_wall_margins_finish(const lrcsi_wall_margins *job)

@@ -19,9 +19,11 @@ typedef struct lrcsi_wall_margin {
 } lrcsi_wall_margin;
 
 /* What is known of an event edge over a wall. */
+#define LRCSI_WALL_PARTS (LRCSI_EDGE_GAPS + 1)
 typedef struct lrcsi_wall_event {
-    uint32_t part;            /* whose wall was examined last; LRCS_NONE: none was */
-    lrcsi_segment_part known; /* the part of the edge of which the margins there are */
+    uint32_t part; /* whose wall was examined last; LRCS_NONE: none was */
+    int count;     /* so many parts of the edge are known: their margins are */
+    lrcsi_segment_part known[LRCSI_WALL_PARTS];
 } lrcsi_wall_event;
 
 /* The search for margins, facet by facet. */
