@@ -89,10 +89,10 @@ int flight_main(void)
 cycle 1 status 0 stale 0 flags 0 steps 44625 sigma mm2 30579551 bound mm2 9
 cycle 2 status 0 stale 0 flags 0 steps 37130 sigma mm2 1697619 bound mm2 145
 cycle 3 status 0 stale 0 flags 0 steps 34563 sigma mm2 7070226 bound mm2 88
-cycle 4 status 0 stale 0 flags 0 steps 19809 sigma mm2 1076713 bound mm2 27
-cycle 5 status -1 stale 1 flags 0 steps 19809 sigma mm2 1076713 bound mm2 27
-cycle 6 status -6 stale 2 flags 0 steps 19809 sigma mm2 1076713 bound mm2 27
-cycle 7 status 0 stale 0 flags 0 steps 28461 sigma mm2 1671468 bound mm2 114
+cycle 4 status 0 stale 0 flags 0 steps 19809 sigma mm2 1076713 bound mm2 25
+cycle 5 status -1 stale 1 flags 0 steps 19809 sigma mm2 1076713 bound mm2 25
+cycle 6 status -6 stale 2 flags 0 steps 19809 sigma mm2 1076713 bound mm2 25
+cycle 7 status 0 stale 0 flags 0 steps 28461 sigma mm2 1671467 bound mm2 110
 cycle 8 status 0 stale 0 flags 0 steps 8118 sigma mm2 3148562 bound mm2 0
 end: status 0 failures 2
 */

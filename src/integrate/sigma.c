@@ -83,7 +83,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     if (moments_wanted(prepared)) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
-        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(double)));
         need = lrcsi_work_add(need, lrcsi_round_rim_need(prepared));
         need = lrcsi_work_add(need, lrcsi_clear_sectors_need(prepared));
     }
@@ -125,7 +125,7 @@ static int run_allocate(lrcsi_sigma *run)
     memory->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *memory->visible) : NULL;
     int moments = !run_is_unshadowed(run) && moments_wanted(p);
     memory->moment = moments ? lrcsi_work_take(run->work, facets, sizeof *memory->moment) : NULL;
-    run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
+    run->corrected = moments ? lrcsi_work_take(run->work, facets, sizeof *run->corrected) : NULL;
     int wall_terms =
         moments || (lrcsi_sigma_is_one_convex_shape(p) && run->plan.method != LRCS_METHOD_CLOSED);
     memory->wall_terms =

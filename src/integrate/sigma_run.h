@@ -59,7 +59,7 @@ typedef struct lrcsi_sigma {
     lrcsi_masked_band masked;  /* the band, less what an attempt has found to be hidden */
     lrcsi_sigma_memory memory;
     lrcsi_areas areas;              /* what the last attempt found */
-    unsigned char *corrected;       /* as in lrcsi_total_details */
+    double *corrected;              /* as in lrcsi_total_details */
     lrcsi_curve_terms *curve_terms; /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;     /* NULL: all normals are flat */
     lrcsi_outcome outcome;

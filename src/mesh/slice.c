@@ -100,8 +100,8 @@ double lrcsi_slice_fraction(const lrcsi_slice *slice, double whole, double longe
    below 1 and accurate to 2^-48, so that e, h and x - p are accurate to 2^-46; h . e is 0 to within
    2^-46 (|e| + |o - p|), and the component of x - p along e is at most |e| + |o - p|: EXTENT_MARGIN
    covers all of it. */
-double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
-                          const double q[3])
+int lrcsi_slice_heights(const lrcsi_slice *slice, const double o[3], const double p[3],
+                        const double q[3], double *low, double *high)
 {
     double e[3];
     double h[3];
@@ -109,8 +109,8 @@ double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const dou
     double square_e = 0;
     double square_h = 0;
     double altitude = 0;
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
     if (slice->count == 0) {
         return 0;
     }
@@ -127,9 +127,13 @@ double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const dou
     }
     for (int i = 0; i < slice->count; i++) {
         double height = slice_height(slice->x[i], h, p);
-        low = height < low ? height : low;
-        high = height > high ? height : high;
+        least = height < least ? height : least;
+        most = height > most ? height : most;
     }
-    double extent = (high - low + EXTENT_MARGIN * (1 + square_e + square_h)) / altitude;
-    return extent < 1 ? extent : 1;
+    const double err = EXTENT_MARGIN * (1 + square_e + square_h);
+    least = (least - err) / altitude;
+    most = (most + err) / altitude;
+    *low = least > 0 ? least : 0; /* a NaN gives all heights */
+    *high = most < 1 ? most : 1;
+    return 1;
 }

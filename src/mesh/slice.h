@@ -29,8 +29,8 @@ void lrcsi_slice_cut_between(lrcsi_slice *slice, const double n[3], const double
 double lrcsi_slice_fraction(const lrcsi_slice *slice, double whole, double longest);
 
 /* The interval of heights over the side p q that the polygon, part of the triangle o p q, covers:
-   as a fraction of the height of o, 0 .. 1, rounded up. */
-double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
-                          const double q[3]);
+   as fractions of the height of o, 0 .. 1, rounded outward. Returns 0 if the polygon is empty. */
+int lrcsi_slice_heights(const lrcsi_slice *slice, const double o[3], const double p[3],
+                        const double q[3], double *low, double *high);
 
 #endif

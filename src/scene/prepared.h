@@ -78,13 +78,13 @@ static inline uint32_t lrcsi_batch_lanes(uint32_t start, uint32_t end)
    the fractions (visibility/proximity/proximity_band.c, 1.f). */
 typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
-    float front_fraction; /* upper bound of the fraction of the facet's area that is within the
+    float front_fraction;    /* upper bound of the fraction of the facet's area that is within the
                              slack and in front of the plane of the other */
-    float back_fraction;  /* the same, behind that plane */
-    float row_fraction;   /* of the fraction of its rows with such points (lrcsi_proximity_rows) */
-    float gain_fraction;  /* at most back_fraction: the same where the true surface around the other
+    float back_fraction;     /* the same, behind that plane */
+    float row_low, row_high; /* around its rows with such points (lrcsi_proximity_rows) */
+    float gain_fraction; /* at most back_fraction: the same where the true surface around the other
                              facet faces the laser (scene/proximity_contact.h) */
-    float loss_fraction;  /* likewise, at most front_fraction */
+    float loss_fraction; /* likewise, at most front_fraction */
 } lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {

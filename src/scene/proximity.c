@@ -138,20 +138,23 @@ int lrcsi_proximity_on_round_wall(const lrcs_prepared *p, uint32_t facet)
    first the facet with its side on the base, then, except on a cone, the one with its side on the
    upper circle. So `top` is the vertex with the largest index in the former and with the smallest
    in the latter. */
-double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
-                            const lrcsi_slice *slice)
+lrcsi_row_range lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet,
+                                     const double *const corner[3], const lrcsi_slice *slice)
 {
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
     const uint32_t *vertex = p->scene->facet[facet].corner;
     int is_below = part->kind == LRCS_SHAPE_CONE || (facet - part->first_facet) % 2 == 0;
     int top = 0;
+    lrcsi_row_range rows = {1, 0};
     if (!lrcsi_proximity_has_rows(p, facet)) {
-        return 1;
+        return (lrcsi_row_range){0, 1};
     }
     for (int k = 1; k < 3; k++) {
         top = is_below == (vertex[k] > vertex[top]) ? k : top;
     }
-    return lrcsi_slice_extent(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3]);
+    (void)lrcsi_slice_heights(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3],
+                              &rows.low, &rows.high);
+    return is_below || rows.low > rows.high ? rows : (lrcsi_row_range){1 - rows.high, 1 - rows.low};
 }
 
 /* --- parts ------------------------------------------------------------------------------------ */

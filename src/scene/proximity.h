@@ -48,11 +48,16 @@ double lrcsi_displacement_across(const lrcsi_displacement *displacement, const d
 int lrcsi_proximity_openings(const lrcs_prepared *prepared, uint32_t part);
 
 /* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
-   its side on one of the wall's two circles. Given: the facet's corners, in any coordinates, and a
-   slice of the facet. Returned: an upper bound of the fraction of rows, measured by their heights
-   above that side, that the slice meets; 1 if the facet has no rows. */
-double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
-                            const double *const corner[3], const lrcsi_slice *slice);
+   its side on one of the wall's two circles; those between two heights, as fractions of the wall's,
+   from its base. low > high: none. */
+typedef struct lrcsi_row_range {
+    double low, high;
+} lrcsi_row_range;
+
+/* Given: a facet's corners, in any coordinates, and a slice of the facet. Returned: the rows that
+   the slice meets, rounded outward; all if the facet has no rows. */
+lrcsi_row_range lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
+                                     const double *const corner[3], const lrcsi_slice *slice);
 
 /* 1 if a facet has rows. */
 int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);

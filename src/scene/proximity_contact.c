@@ -60,6 +60,7 @@
 
 #include "base/constant.h"
 #include "base/outward.h"
+#include "base/parabola.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
@@ -73,8 +74,6 @@
 #define DEPTH_MAX 0.25
 /* The points of a flat face must be so many slacks from its border, more beside an oblique wall. */
 #define BORDER_OVER_SLACK 3.0
-/* A quadratic function is replaced by so many chords, as a heuristic: more give a closer bound. */
-#define CHORDS 16
 /* Points are considered up to so many times the distance from the plane of g within which they are
    expected to matter; contacts where they matter farther away are not used. */
 #define WIDER 1.25
@@ -402,27 +401,6 @@ static void subtract_outline(const contact_solid *q, const double end[2][3], con
         LARGER * lrcsi_max(radius[0], radius[1]) * (0.5 * z * z * z * z + 0.5 * z * z * uneven);
 }
 
-/* An upper bound of the integral over 0 .. 1 of the positive part of a quadratic function plus a
-   shift, given its values at 0, 1/2 and 1: it exceeds each of its chords by at most an eighth of
-   the square of the chord's width times its second derivative. */
-static double positive_part(const double value[3], double sign, double shift)
-{
-    const double square = sign * 2 * (value[0] - 2 * value[1] + value[2]);
-    const double first = sign * (4 * value[1] - 3 * value[0] - value[2]);
-    const double bulge = 0.25 * lrcsi_max(0, -square) / (CHORDS * CHORDS);
-    double before = sign * value[0] + shift + bulge;
-    double sum = 0;
-    for (int i = 1; i <= CHORDS; i++) {
-        const double t = (double)i / CHORDS;
-        const double after = sign * value[0] + t * (first + t * square) + shift + bulge;
-        const double high = lrcsi_max(before, after);
-        const double low = lrcsi_min(before, after);
-        sum += high <= 0 ? 0 : low >= 0 ? high + low : high * (high / (high - low));
-        before = after;
-    }
-    return 0.5 * sum / CHORDS;
-}
-
 /* The part of L in the polygon S: its ends, and its length; and the extent of S along it. */
 typedef struct contact_line {
     double end[2][3];
@@ -498,8 +476,8 @@ static lrcsi_contact_fractions areas_in(const lrcs_prepared *p, const contact_so
     const double rest =
         range->most * (lrcsi_max(0, line.extent - line.length) + 4 * LRCSI_PROXIMITY_ERR);
     return (lrcsi_contact_fractions){
-        (line.length * positive_part(e.value, 1, eta) + rest) / s * LRCSI_OUTWARD_MICRO,
-        (line.length * positive_part(e.value, -1, eta) + rest) / s * LRCSI_OUTWARD_MICRO};
+        (line.length * lrcsi_parabola_positive(e.value, 1, eta) + rest) / s * LRCSI_OUTWARD_MICRO,
+        (line.length * lrcsi_parabola_positive(e.value, -1, eta) + rest) / s * LRCSI_OUTWARD_MICRO};
 }
 
 /* 1. What is outside of Z; 2. the bounds on E near g; 3. the areas in Z. */

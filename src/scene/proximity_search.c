@@ -55,7 +55,7 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
     const lrcsi_sides_fraction of = lrcsi_proximity_slice_fractions(p, facet, &slice, other);
-    double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
+    const lrcsi_row_range rows = lrcsi_proximity_rows(p, facet, corner, &slice);
     if (!(of.front > 0 || of.back > 0)) {
         return LRCS_OK;
     }
@@ -75,7 +75,8 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
                                other,
                                fraction_float(of.front),
                                fraction_float(of.back),
-                               fraction_float(rows),
+                               (float)(rows.low * (2 - LRCSI_OUTWARD_FLOAT)),
+                               fraction_float(rows.high),
                                fraction_float(lrcsi_min(contact.gain, of.back)),
                                fraction_float(lrcsi_min(contact.loss, of.front))};
     return LRCS_OK;

@@ -313,7 +313,7 @@ static void only_the_parts_that_the_error_is_due_to_are_divided(void **state)
 static void one_refinement_meets_the_tolerance_without_excess(void **state)
 {
     (void)state;
-    static const double azel[2][2] = {{5.0, 20.0}, {-90.0, 10.0}};
+    static const double azel[2][2] = {{5.0, 20.0}, {-80.0, 10.0}};
     for (int i = 0; i < 2; i++) {
         lrcs_host_scene scene;
         lrcs_result result;

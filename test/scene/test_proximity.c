@@ -77,7 +77,7 @@ static void the_slack_of_two_parts_is_what_both_may_differ_by(void **state)
                lrcsi_proximity_slack(p, BALL, BOWL));
 }
 
-/* Between a quarter and half of the height lies a quarter of the rows of every facet. */
+/* Between a quarter and half of the height are the rows of every facet there. */
 static void rows_of_straight_walls_lie_across_the_axis(void **state)
 {
     (void)state;
@@ -99,13 +99,19 @@ static void rows_of_straight_walls_lie_across_the_axis(void **state)
                                              lrcsi_prepared_corner(p, f, 2)};
             lrcsi_slice slice = lrcsi_slice_start(corner[0], corner[1], corner[2]);
             if (!lrcsi_proximity_has_rows(p, f)) { /* a facet of a cap */
-                check_same(lrcsi_proximity_rows(p, f, corner, &slice), 1);
+                const lrcsi_row_range all = lrcsi_proximity_rows(p, f, corner, &slice);
+                assert_true(all.low == 0 && all.high == 1);
                 check_same(corner[0][2], corner[1][2]);
                 continue;
             }
             lrcsi_slice_cut(&slice, up, origin, 0.5 * length);
             lrcsi_slice_cut(&slice, down, origin, -0.25 * length);
-            check_abs(lrcsi_proximity_rows(p, f, corner, &slice), 0.25, 1e-9);
+            const lrcsi_row_range rows = lrcsi_proximity_rows(p, f, corner, &slice);
+            check_abs(rows.low, 0.25, 1e-9);
+            check_abs(rows.high, 0.5, 1e-9);
+            slice.count = 0;
+            const lrcsi_row_range none = lrcsi_proximity_rows(p, f, corner, &slice);
+            assert_true(none.low > none.high);
             walls++;
         }
         assert_true(walls >= 8);

@@ -123,11 +123,11 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
         int diffuse = i == 0 ? own->B > 0 : own->B == 0;
         lrcsi_linear linear;
         if ((glint || diffuse) && patch &&
-            lrcsi_linear_make(view, brdf, patch, bounds, 0, &linear)) {
+            lrcsi_linear_make(view, brdf, patch, bounds, 0, NULL, &linear)) {
             lrcsi_linear_moment m = lrcsi_linear_moment_make(
                 view, facet, patch, &run->areas.visible[facet], &run->areas.moment[facet]);
-            const double x = m.first[0] / projected;
-            const double y = m.first[1] / projected;
+            const double x = m.first[0] * (run->corrected[facet] / projected);
+            const double y = m.first[1] * (run->corrected[facet] / projected);
             if (glint && brdf->A > 0) {
                 at.glint = (linear.glint[0] * x + linear.glint[1] * y) / brdf->A;
                 at.glint_s = (linear.glint_s[0] * x + linear.glint_s[1] * y) / brdf->A;
@@ -199,7 +199,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, int as_s
         const double u = incidence.tan2;
         double whole = LRCS_FOUR_PI * 0.5 * p->normal[f].length;
         double weight = whole * fraction;
-        int corrected = areas.moment && run->corrected[f];
+        int corrected = areas.moment && run->corrected[f] > 0;
         if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
             const lrcsi_curve_terms *curved = &run->curve_terms[f];
             const lrcsi_unit_response at = {curved->glint, curved->diffuse,

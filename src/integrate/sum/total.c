@@ -167,7 +167,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         run.shared_reach += i < LRCSI_PART_SET_SINGLE ? 0 : p->scene->part[i].bounds.reach;
     }
     if (areas->moment) {
-        memset(details->corrected, 0, p->scene->facet_count);
+        memset(details->corrected, 0, p->scene->facet_count * sizeof *details->corrected);
     }
     if (details->records) { /* 1 */
         records_start(&run);

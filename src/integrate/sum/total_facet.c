@@ -213,10 +213,10 @@ static void add_round_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_w
 
 /* Adds what a facet's sigma is corrected by, because F varies over its patch. Its rounding error is
    part of the tessellation error. */
-static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+static void add_correction(lrcsi_total_run *run, uint32_t facet, const lrcsi_tessellation *error)
 {
-    run->details.corrected[facet] = 1;
-    add_sigma(run, facet, LRCS_FOUR_PI * glint, LRCS_FOUR_PI * diffuse);
+    run->details.corrected[facet] = error->corrected;
+    add_sigma(run, facet, LRCS_FOUR_PI * error->glint, LRCS_FOUR_PI * error->diffuse);
 }
 
 /* Adds sigma of the margins on a facet, and of those of the face that it represents. The true
@@ -255,8 +255,8 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
             run->band, run->areas->face, run->areas->margins != NULL};
         lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
         add_margin(run, facet, incidence);
-        if (error.corrected) {
-            add_correction(run, facet, error.glint, error.diffuse);
+        if (error.corrected > 0) {
+            add_correction(run, facet, &error);
         }
         run->sums.above += LRCS_FOUR_PI * error.above;
         run->sums.below += LRCS_FOUR_PI * error.below;

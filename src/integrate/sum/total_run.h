@@ -31,8 +31,9 @@ typedef struct lrcsi_total_details {
                                    a shape faces the laser, and none of its facets does, its sigma
                                    is in no record */
     double *part_error;         /* [part_count]: as in lrcs_run_options */
-    unsigned char *corrected;   /* [facet_count], not NULL with moments: 1 if the facet's terms were
-                                   corrected by them (integrate/wall/linear.h) */
+    double *corrected;          /* [facet_count], not NULL with moments: not 0 if the facet's terms
+                                   were corrected by them (integrate/wall/linear.h), by gradients
+                                   of this scale */
 } lrcsi_total_details;
 
 /* Running sums, scaled. */

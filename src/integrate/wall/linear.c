@@ -21,6 +21,10 @@
    that: at most the integral of |H|. This is `region`. At points |h| <= |H| + |mean of H|; the
    second is at most (1 + a) region, which the caller adds to `point`.
 
+   Rows. On a straight wall l may be made for rows between two heights: over whole rows H has no
+   part that is odd in x but the same as before, so that its integral over these is 0 for any
+   `across`; then all of this holds for regions in the given rows, and their area.
+
    Areas. The facets' area differs from the patch's by at most the fraction a = area_err. Per unit
    of area of the facets the sum uses (patch area / facet area) m, but G as it is: so on the patch G
    is multiplied by a factor within a/(1 - a) of 1. That is an error of `variation` times a/(1 - a).
@@ -172,12 +176,19 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
 /* 1. The axes of the facets; 2. both terms' gradients; 3. what the linear part adds to the bounds.
  */
 int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                      const lrcs_patch_bounds *bounds, double second, lrcsi_linear *linear)
+                      const lrcs_patch_bounds *bounds, double second, const lrcsi_row_range *rows,
+                      lrcsi_linear *linear)
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
     const double a = bounds->area_err;
     lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
     lrcsi_revolution_normals normals = lrcsi_revolution_normals_make(&body, patch->at.row);
+    linear->scale = 1;
+    if (rows) {
+        const double across = normals.across;
+        normals = lrcsi_revolution_normals_between(&body, rows->low, rows->high);
+        linear->scale = normals.across / across;
+    }
     double unit = ldexp(part->unit, -view->prepared->exponent);
     linear_patch at = {
         .scale = {normals.across / unit, normals.along / unit},

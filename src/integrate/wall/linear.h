@@ -6,6 +6,7 @@
 
 #include "integrate/wall/patch.h"
 #include "optics/reflect.h"
+#include "scene/proximity.h"
 #include "visibility/base/visible_area.h"
 
 /* l = (mean over the patch) + gradient . (x - c), where x is a point of the facets that share the
@@ -15,6 +16,7 @@ typedef struct lrcsi_linear {
     double glint[2], diffuse[2];     /* the gradients of both terms, axes of the view */
     double glint_s[2], diffuse_m[2]; /* their derivatives in s, in m */
     double slope;                    /* upper bound of the length of their sum */
+    double scale;                    /* the gradients are so many times those for all rows */
     double variation; /* upper bound of |gradient . (x - c)|; of each term it is at most its mean */
     /* Bounds on the difference h of F, at a point of the patch, and l at its image, divided by
        patch area / facet area: */
@@ -23,11 +25,13 @@ typedef struct lrcsi_linear {
     double rounding; /* the part of either that is due to rounding */
 } lrcsi_linear;
 
-/* Given: a patch that is known; the bounds of its part; `second` of lrcsi_deviation for it. The
-   bounds do not include the errors of the patch's mean. Returned: 1 and l; 0 if there is none: the
-   shape's scale differs between axes, or rounding errors are too large. */
+/* Given: a patch that is known; the bounds of its part; `second` of lrcsi_deviation for it; rows of
+   a straight wall, in which the bounds of h hold, or NULL: in all. The bounds do not include the
+   errors of the patch's mean. Returned: 1 and l; 0 if there is none: the shape's scale differs
+   between axes, or rounding errors are too large. */
 int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi_patch *patch,
-                      const lrcs_patch_bounds *bounds, double second, lrcsi_linear *linear);
+                      const lrcs_patch_bounds *bounds, double second, const lrcsi_row_range *rows,
+                      lrcsi_linear *linear);
 
 /* What is visible of a facet, about the centroid of the facets that share its patch. */
 typedef struct lrcsi_linear_moment {

@@ -75,12 +75,13 @@
    (visibility/proximity/wall_margin.c): the area by which the true shapes leave more visible in
    them is attributed to the facets there, A to this one, and A F_i is added to M. Then g and
    l are the fractions of the other bands, and T - M has one more term: the integral of F over the
-   margins, less A F_i for each facet, where F is that of a patch some sectors away. Let D be a
+   margins, less A F_i for each facet, where F may be that of a patch some sectors away. Let D be a
    bound on the area in the margins, and E one on the error of A, both divided by the facet's
-   projected area. The term is at most (1 + a) S (D sup |F - F_i| + E sup F), sup over these
-   patches, and S D F_i a for the stretch; with l in place of F_i, also S D sup |l - F_i|. Together
-   with M, the bound (1 + a) S sup F is increased by the size of A F_i. Of a facet that the sum
-   leaves out, D sup F is an error instead.
+   projected area. The term is at most (1 + a) S (D sup |F - F_i| + E sup F), and S D F_i a for the
+   stretch; with l in place of F_i, also S D sup |l - F_i|. The suprema are over the facet's own
+   patch, and over those patches for what of D may be on other facets. Together with M, the bound
+   (1 + a) S sup F is increased by the size of A F_i. Of a facet that the sum leaves out, D sup F is
+   an error instead.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
@@ -90,6 +91,7 @@
 
 #include "base/constant.h"
 #include "base/outward.h"
+#include "base/range.h"
 #include "mesh/shape/patch_bounds.h"
 
 /* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
@@ -184,10 +186,14 @@ static double margin_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     const double most = fmax(f.value_max, at->deviation.of_f.value);
     const lrcsi_patch *patch = at->deviation.patch; /* F_i is its mean, `value` at most larger */
     const double mean_err = patch ? patch->remainder + patch->rounding : 0;
-    const double varies = f.point + fabs(at->deviation.of_f.value - f.value) + mean_err;
+    const double varies_far = f.point + fabs(at->deviation.of_f.value - f.value) + mean_err;
+    const double varies = lrcsi_min(at->deviation.of_f.point, varies_far);
     const int included = in->visible[at->facet].high > 0;
-    const double known = included ? varies + at->area_err * most : most;
-    return (1 + at->area_err) * (known * margin->area_max + most * margin->area_err) /
+    const double known =
+        included ? (varies + at->area_err * most) * margin->area_max +
+                       (varies_far - varies) * lrcsi_min(margin->area_far, margin->area_max)
+                 : most * margin->area_max;
+    return (1 + at->area_err) * (known + most * margin->area_err) /
            (incidence->projected * (1 - incidence->error)) * LRCSI_OUTWARD_NANO;
 }
 

@@ -87,9 +87,10 @@ enum sector_method {
     BY_ROWS    /* the deviation of the whole patch, and of the rows that meet a proximity band */
 };
 typedef struct sector_bound {
-    int method;   /* sector_method */
-    double rows;  /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
-    double error; /* the larger error of both facets, per unit of area */
+    int method;        /* sector_method */
+    double rows, open; /* BY_ROWS: the fraction of the sector in rows that meet a proximity band;
+                          that of further ones, where F may differ by its largest value */
+    double error;      /* the larger error of both facets, per unit of area */
 } sector_bound;
 
 /* The error per unit of area, except for gain and loss: by the deviation over any region; by that
@@ -105,17 +106,44 @@ static double bound_by_point(const lrcsi_deviation *deviation, double stretch, d
     return visible * ((1 + a) * deviation->point + stretch * deviation->value);
 }
 
-/* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
-   has no rows. Each facet of a cone has a sector of its own. */
-static double sector_rows(const lrcs_prepared *p, uint32_t facet, const lrcsi_masked_band *band)
+/* The rows of a sector that meet a proximity band: an upper bound of their fraction of its area; of
+   the part of that which may be anywhere; the range of the others. */
+typedef struct sector_rows {
+    double all, open;
+    lrcsi_row_range range;
+} sector_rows;
+
+/* All rows if there are none. Each facet of a cone has a sector of its own. */
+static sector_rows sector_rows_make(const lrcs_prepared *p, uint32_t facet,
+                                    const lrcsi_masked_band *band)
 {
+    sector_rows rows = {1, 0, {0, 1}};
     if (!lrcsi_proximity_has_rows(p, facet)) {
-        return 1;
+        return rows;
     }
-    int alone = lrcsi_patch_part(p, facet)->kind == LRCS_SHAPE_CONE;
-    double rows = lrcsi_masked_rows(band, facet) +
-                  (alone ? 0 : lrcsi_masked_rows(band, lrcsi_patch_partner(p, facet)));
-    return fmin(1, 2 * rows);
+    rows.all = lrcsi_masked_rows(band, facet);
+    rows.open = lrcsi_masked_rows_open(band, facet);
+    rows.range = lrcsi_masked_row_range(band, facet);
+    if (lrcsi_patch_part(p, facet)->kind != LRCS_SHAPE_CONE) {
+        const uint32_t partner = lrcsi_patch_partner(p, facet);
+        const lrcsi_row_range range = lrcsi_masked_row_range(band, partner);
+        rows.all += lrcsi_masked_rows(band, partner);
+        rows.open += lrcsi_masked_rows_open(band, partner);
+        rows.range.low = fmin(rows.range.low, range.low);
+        rows.range.high = fmax(rows.range.high, range.high);
+    }
+    rows.all = fmin(1, 2 * rows.all);
+    rows.open = fmin(1, 2 * rows.open);
+    return rows;
+}
+
+/* Is the linear function made for these rows alone? It is on a cone or frustum, where it depends on
+   the radius, if they are few: heuristic. */
+static int rows_are_few(const lrcs_part *part, const sector_rows *rows)
+{
+    const double high = rows->range.high - rows->range.low;
+    return (part->kind == LRCS_SHAPE_CONE || part->kind == LRCS_SHAPE_FRUSTUM) && rows->all < 0.5 &&
+           high >= 0 && high < 0.5;
 }
 
 /* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the
@@ -132,7 +160,7 @@ static sector_bound sector_choose(const lrcsi_tessellation_input *in, const lrcs
         lrcsi_patch_fractions_of(&at->pair[1], first + 1, in->visible, in->band, in->margins);
     int is_cone = lrcsi_patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE;
     double hidden = fmax(one.hidden + one.loss, two.hidden + two.loss);
-    double rows = sector_rows(p, is_cone ? at->facet : first, in->band);
+    double rows = sector_rows_make(p, is_cone ? at->facet : first, in->band).all;
     double b = fmax(fmax(one.gain, one.loss), fmax(two.gain, two.loss));
     double by_hidden = deviation->whole + (1 + a) * hidden * deviation->value_max;
     double by_rows = deviation->whole + rows * bound_by_region(deviation, stretch) +
@@ -143,7 +171,7 @@ static sector_bound sector_choose(const lrcsi_tessellation_input *in, const lrcs
     double either = fmin(by_region, by_point);
     double by_either =
         fmin(either + (1 + a) * b * deviation->value, (1 + a) * deviation->value_max);
-    sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows, by_either};
+    sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows, 0, by_either};
     if (by_rows < fmin(by_hidden, by_either)) {
         bound.method = BY_ROWS;
         bound.error = by_rows;
@@ -179,7 +207,8 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
             deviation->whole + fmin(1 + f->margin_added, f->hidden + f->loss) * sup, 0, 0, 0};
     }
     if (bound->method == BY_ROWS) {
-        either = deviation->whole + bound->rows * bound_by_region(deviation, stretch);
+        either = deviation->whole + bound->rows * bound_by_region(deviation, stretch) +
+                 bound->open * (1 + a) * (deviation->value_max + deviation->value);
         sup = HUGE_VAL;
     } else if (bound->method == BY_REGION) {
         either = bound_by_region(deviation, stretch);
@@ -277,11 +306,14 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     const double a = at->area_err;
     const double stretch = at->deviation.stretch;
     const int together = sector->joint && patch->at.facets == 2;
+    const sector_rows rows =
+        sector_rows_make(p, together ? lrcsi_patch_sector(p, at->facet) : at->facet, in->band);
+    const int few = sector->joint && rows_are_few(lrcsi_patch_part(p, at->facet), &rows);
     lrcsi_linear linear;
     patch_correction own;
     patch_correction other = {0, 0, 0, 1};
     if (!lrcsi_linear_make(in->view, &brdf, patch, &at->bounds, sector->deviation.second,
-                           &linear) ||
+                           few ? &rows.range : NULL, &linear) ||
         !correction_make(in, at, at->facet, &linear, &own) ||
         (together &&
          !correction_make(in, at, lrcsi_patch_partner(p, at->facet), &linear, &other))) {
@@ -297,8 +329,10 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     }
     lrcsi_deviation deviation = linear_deviation(&at->deviation.of_f, a, &linear, patch);
     lrcsi_deviation both = linear_deviation(&sector->deviation, a, &linear, patch);
-    sector_bound choice = {BY_POINT, 1, 0};
-    if (sector->joint) {
+    sector_bound choice = {BY_POINT, 1, 0, 0};
+    if (few) {
+        choice = (sector_bound){BY_ROWS, rows.all - rows.open, rows.open, 0};
+    } else if (sector->joint) {
         choice = sector_choose(in, at, &both, stretch);
     } else {
         deviation.region *= own.ratio;
@@ -311,7 +345,7 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
     error->below += own.error;
     error->glint = own.glint;
     error->diffuse = own.diffuse;
-    error->corrected = 1;
+    error->corrected = linear.scale;
     if (!together) {
         return error->above <= constant->above && error->below <= constant->below;
     }
@@ -331,7 +365,7 @@ lrcsi_tessellation lrcsi_wall_error(const lrcsi_tessellation_input *in, const lr
     wall_sector sector = {.joint = lrcsi_patch_is_visible(at->state) &&
                                    lrcsi_patch_is_visible(at->partner) && !whole,
                           .deviation = at->deviation.of_f,
-                          .bound = {BY_POINT, 1, 0}};
+                          .bound = {BY_POINT, 1, 0, 0}};
     if (sector.joint) {
         double stretch = at->deviation.stretch;
         if (first != at->facet) {

@@ -32,7 +32,8 @@ typedef struct lrcsi_tessellation {
     double above, below;
     double glint, diffuse; /* the correction: what is to be added to the facet's terms because only
                               a part of it is visible, and F varies over its patch */
-    int corrected;         /* 0: there is none; both are 0 */
+    double corrected;      /* 0: there is none; both are 0. Otherwise the scale of its gradients
+                              (lrcsi_linear) */
 } lrcsi_tessellation;
 
 /* A bound on the relative difference between the area of a region of a patch and that of its image

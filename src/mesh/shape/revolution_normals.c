@@ -18,7 +18,9 @@
    a straight wall sin alpha = S is constant. With across = S / (mu r'), r' the mean of the radii of
    the rows, the first term is S |1 - r/r'| |sin vh|, at most S D |sin vh| with
    D = |rho0 - rho1| / (rho0 + rho1). The mean of |1 - r/r'| over the patch, where r has a density
-   in proportion to r, is D/2.
+   in proportion to r, is D/2. Between two heights rho0 and rho1 are the radii there. The first term
+   changes its sign with v: so of its integral over any region between these heights half of the
+   bound, the mean of |1 - r/r'| being at most D, is left, which is the same.
 
    Along, half the range of the difference of both sides.
    - Straight wall: along = 0; sin(alpha - nu) is constant.
@@ -42,14 +44,12 @@
 
 /* What depends on the shape: `across`, `along` and their errors, without the second term of N .
    e_y. Given: the rest. Returns the largest sin alpha. */
-static double normals_straight(const lrcsi_revolution *body, uint32_t i,
+static double normals_straight(const lrcsi_revolution *body, double below, double above,
                                lrcsi_revolution_normals *n)
 {
-    double below = lrcsi_revolution_radius(body, i);
-    double above = lrcsi_revolution_radius(body, i + 1);
     double mean = 0.5 * (below + above);
     double h = body->half;
-    double sine = cos(lrcsi_zone_make(body, i).low);
+    double sine = cos(lrcsi_zone_make(body, 0).low);
     double uneven = sine * fabs(below - above) / (below + above);
     double bent = sine * fmax(below, above) / mean * (h * h * h / 15.0);
     n->across = sine / (body->vertex_ratio * mean);
@@ -105,7 +105,9 @@ static double normals_round(const lrcsi_revolution *body, uint32_t i, lrcsi_revo
     return sine;
 }
 
-lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *body, uint32_t i)
+/* For a zone; on a straight wall between the heights at which it has these radii. */
+static lrcsi_revolution_normals normals_make(const lrcsi_revolution *body, uint32_t i,
+                                             const double radius[2])
 {
     double h = body->half;
     double below = lrcsi_revolution_radius(body, i);
@@ -117,7 +119,8 @@ lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *b
                                   .width = body->vertex_ratio * sin(h) * fmax(below, above),
                                   .length = hypot(body->vertex_ratio * cos(h) * (below - above),
                                                   lrcsi_revolution_rise(body, i))};
-    double sine = lrcsi_revolution_is_straight(body)    ? normals_straight(body, i, &n)
+    double sine = lrcsi_revolution_is_straight(body)
+                      ? normals_straight(body, radius[0], radius[1], &n)
                   : body->kind == LRCS_SHAPE_PARABOLOID ? normals_paraboloid(body, i, &n)
                                                         : normals_round(body, i, &n);
     n.along_err += 0.5 * sine * fabs(n.cosine) * (2.0 * sin(0.5 * h) * sin(0.5 * h));
@@ -128,4 +131,19 @@ lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *b
     n.width *= LRCSI_REACH_MARGIN;
     n.length *= LRCSI_REACH_MARGIN;
     return n;
+}
+
+lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *body, uint32_t i)
+{
+    const double radius[2] = {lrcsi_revolution_radius(body, i),
+                              lrcsi_revolution_radius(body, i + 1)};
+    return normals_make(body, i, radius);
+}
+
+lrcsi_revolution_normals lrcsi_revolution_normals_between(const lrcsi_revolution *body, double low,
+                                                          double high)
+{
+    const double radius[2] = {body->base + low * (body->top - body->base),
+                              body->base + high * (body->top - body->base)};
+    return normals_make(body, 0, radius);
 }

@@ -21,4 +21,9 @@ typedef struct lrcsi_revolution_normals {
 /* For the zone between rows i and i + 1. */
 lrcsi_revolution_normals lrcsi_revolution_normals_make(const lrcsi_revolution *body, uint32_t i);
 
+/* On a straight wall, for the points between two heights, as fractions of its own: across x is then
+   closer to the true normals there. `width` and `length` are still those of the whole wall. */
+lrcsi_revolution_normals lrcsi_revolution_normals_between(const lrcsi_revolution *body, double low,
+                                                          double high);
+
 #endif

@@ -86,7 +86,8 @@ int lrcsi_band_sees_inside(const lrcsi_event_bands *bands, uint32_t facet);
 
 /* The fractions of a facet near an event edge. */
 typedef struct lrcsi_event_band {
-    double area, rows; /* of its area, of its rows, where the edge matters */
+    double area;          /* of its area, where the edge matters */
+    lrcsi_row_range rows; /* around its rows there */
     double gain, loss;
     double unproved; /* where a proof about the edge's part does not hold */
 } lrcsi_event_band;

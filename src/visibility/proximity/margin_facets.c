@@ -433,7 +433,9 @@ static void facets_compare(lrcsi_margin_facets *all, const lrcsi_edge_margin *m,
             one->farthest = lrcsi_max(one->farthest, other->lateral);
             one->cos_ratio_err = lrcsi_max(one->cos_ratio_err, cos_ratio_err);
             one->neighbour_err += cos_ratio_err * length;
+            one->neighbour_length += length;
         }
+        one->neighbour_length = lrcsi_min(one->neighbour_length, to - from);
         one->neighbour_err = lrcsi_min(one->neighbour_err, one->cos_ratio_err * (to - from));
         if (one->sectors > MARGIN_SECTORS_MAX || !(one->cos_ratio_err < COS_RATIO_ERR_MAX)) {
             lrcsi_edge_gaps_add(gaps, one->outer);

@@ -39,8 +39,9 @@ typedef struct lrcsi_margin_facet {
     double cos_ratio_err;         /* bound on |cos / cos' - 1|, where its part of the margin may be
                                      on another facet: cos of its own incidence angle, cos' of that
                                      facet's */
-    double neighbour_err;         /* a bound on the sum of this over such facets, times the length
-                                     along the edge where the margin may be on them */
+    double neighbour_length;      /* along the edge, where the margin may be on such facets */
+    double neighbour_err;         /* a bound on the sum of cos_ratio_err over such facets, times the
+                                     length along the edge where the margin may be on them */
     uint32_t sectors;             /* how far these are from it */
 } lrcsi_margin_facet;
 

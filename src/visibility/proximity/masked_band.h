@@ -57,6 +57,16 @@ static inline double lrcsi_masked_rows(const lrcsi_masked_band *band, uint32_t f
     return band->facet_hidden[facet] ? 0 : band->whole->rows[facet];
 }
 
+static inline double lrcsi_masked_rows_open(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? 0 : band->whole->rows_open[facet];
+}
+
+static inline lrcsi_row_range lrcsi_masked_row_range(const lrcsi_masked_band *band, uint32_t facet)
+{
+    return band->facet_hidden[facet] ? (lrcsi_row_range){1, 0} : band->whole->row_range[facet];
+}
+
 /* Those of aligned points of a facet on a known face. If a part whose bands the facet does not meet
    hides the facet, it hides all points of the true face within its reach
    (visibility/proximity/proximity_band.c, 1.c and d): those beside its sides, too. */

@@ -156,7 +156,17 @@ static double add_unproved(band_job *job, uint32_t facet, uint32_t other, double
     }
     add_both(job->band, facet, fraction, lrcsi_part_set_of(other));
     job->band->rows[facet] += fraction;
+    job->band->rows_open[facet] += fraction;
     return fraction;
+}
+
+/* Adds rows of a facet where a band may be. */
+static void add_rows(lrcsi_proximity_band *band, uint32_t facet, lrcsi_row_range rows)
+{
+    lrcsi_row_range *range = &band->row_range[facet];
+    band->rows[facet] += lrcsi_max(0, rows.high - rows.low);
+    range->low = lrcsi_min(range->low, rows.low);
+    range->high = lrcsi_max(range->high, rows.high);
 }
 
 /* Does a part pierce the flat face of a facet, so that the margins of the face contain all of its
@@ -201,7 +211,7 @@ static void add_mapped(band_job *job, const lrcsi_band_facet *at)
             band->mismatch[facet] += fractions.area;
             band->gain[facet] += fractions.gain;
             band->loss[facet] += fractions.loss;
-            band->rows[facet] += fractions.rows;
+            add_rows(band, facet, fractions.rows);
             if (!lrcsi_wall_margins_add(&job->walls, facet, job->near.listed[i])) {
                 margin->gain += fractions.gain;
                 margin->loss += fractions.loss;
@@ -474,7 +484,8 @@ static void add_pairs(band_job *job)
         }
         add_fractions(job->band, pair->facet, lrcsi_min(of.front + of.back, gain + loss), gain,
                       loss, lrcsi_part_set_of(other));
-        job->band->rows[pair->facet] += (double)pair->row_fraction;
+        add_rows(job->band, pair->facet,
+                 (lrcsi_row_range){(double)pair->row_low, (double)pair->row_high});
         if (on_face) {
             add_face_pair(job, pair);
         }
@@ -487,7 +498,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
         return 0;
     }
     size_t facets = p->scene->facet_count;
-    size_t need = lrcsi_work_blocks(6, facets, sizeof(double));
+    size_t need = lrcsi_work_blocks(7, facets, sizeof(double));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_row_range)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_near_sides)));
@@ -554,6 +566,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
         return status;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        band->row_range[f] = (lrcsi_row_range){1, 0};
         band->rim[f] = sides_free.side[0];
         band->sides[f] = is_on_known_face(job, f) ? sides_free : sides_near;
     }
@@ -570,7 +583,11 @@ static int all_fractions(band_job *job, lrcs_work *work)
         band->mismatch[f] = lrcsi_min(1, band->mismatch[f]);
         band->gain[f] = lrcsi_min(1, band->gain[f]);
         band->loss[f] = lrcsi_min(1, band->loss[f]);
-        band->rows[f] = band->mismatch[f] < 1 ? lrcsi_min(1, band->rows[f]) : 1;
+        if (!(band->mismatch[f] < 1)) {
+            band->rows[f] = 1;
+            band->row_range[f] = (lrcsi_row_range){0, 1};
+        }
+        band->rows[f] = lrcsi_min(1, band->rows[f]);
     }
     lrcsi_wall_margins_finish(&job->walls);
     return LRCS_OK;
@@ -613,6 +630,8 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
+    m.row_range = lrcsi_work_take(work, facets, sizeof *m.row_range);
+    m.rows_open = lrcsi_work_take_zero(work, facets, sizeof *m.rows_open);
     m.gain_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.gain_aligned);
     m.loss_aligned = lrcsi_work_take_zero(work, facets, sizeof *m.loss_aligned);
     m.sides = lrcsi_work_take(work, facets, sizeof *m.sides);
@@ -624,8 +643,9 @@ int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter 
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     size_t kept = work->used;
     band_job job = {.view = view, .meter = meter, .band = &m};
-    int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_aligned && m.loss_aligned &&
-                         m.sides && m.rim && m.face && m.margin && m.parts && m.region
+    int status = m.mismatch && m.gain && m.loss && m.rows && m.row_range && m.rows_open &&
+                         m.gain_aligned && m.loss_aligned && m.sides && m.rim && m.face &&
+                         m.margin && m.parts && m.region
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

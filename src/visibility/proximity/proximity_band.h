@@ -21,6 +21,8 @@ typedef struct lrcsi_proximity_band {
     double *gain;     /* facet: fraction that the facets hide and the true shapes may not */
     double *loss;     /* facet: fraction that the true shapes may hide and the facets do not */
     double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    lrcsi_row_range *row_range; /* facet: around these rows, but for: */
+    double *rows_open;          /* facet: the fraction of them that may be anywhere */
     double *gain_aligned;    /* facet: the gain where points of facet and true surface correspond if
                              their projections are equal (event_band.c, 5); negative: not known */
     double *loss_aligned;    /* facet: the loss then, if the gain is known */

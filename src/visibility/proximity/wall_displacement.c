@@ -16,6 +16,11 @@
    t rho1 and (1 - t) rho0 in place of t and 1 - t. Then the integrand is a polynomial of degree 5,
    for which the rule of three points is exact.
 
+   Size. With the mean of rho in place of rho, and without s and the last term of c, the integrand is
+   a quadratic function, of which the integral of the magnitude has a close bound. What is left out
+   is at most g |rho1 - rho0| / 2 (g as below), rho h^3 along the edge's component around and
+   rho h^4 / 24.
+
    Derivatives. |c'| <= h^2. kappa tan h = mu sin h, where the vertex ratio mu is between 1 and
    1 / cos h; so s' = h cos vh - mu sin h is between h cos h - tan h and h - sin h, both at most h^3
    in size for h <= 1/2. Hence |c| <= 1 - cos h <= h^2 / 2, |s| <= h^3, and both displacement and
@@ -28,6 +33,7 @@
 #include <math.h>
 
 #include "base/outward.h"
+#include "base/parabola.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "mesh/shape/revolution.h"
@@ -136,6 +142,13 @@ int lrcsi_wall_displacement_make(const lrcsi_event_bands *bands, uint32_t facet,
     const double g = LARGER * h * h * (1 + h);
     const double bent = fabs(v[1] - v[0]) * fabs(rho[1] - rho[0]) / (4 * lrcsi_min(rho[0], rho[1]));
     const double series = LARGER * (h * h * h * h * h / 120 * (1 + h)) + LRCSI_REVOLUTION_SLACK;
+    const double middle = 0.5 * (rho[0] + rho[1]);
+    const double uneven = 0.5 * fabs(rho[1] - rho[0]);
+    double value[3]; /* out c, rho being the mean */
+    for (int i = 0; i < 3; i++) {
+        const double angle = h * (v[0] + 0.5 * i * (v[1] - v[0]));
+        value[i] = middle * out * ((1 - sector.kappa) - angle * angle / 2);
+    }
     const double longest = lrcsi_proximity_longest(view->prepared, facet);
     const double moved = 8 * position_err * longest * longest / fabs(frame.twice);
     found->slope = g * (1 + (1 + sector.tangent) / sector.tangent) / (sector.kappa * cosine) *
@@ -145,5 +158,10 @@ int lrcsi_wall_displacement_make(const lrcsi_event_bands *bands, uint32_t facet,
                    (most * (g * (bent + UNIT_ERR) + series) + found->slope * moved +
                     2 * sector.rounding + LRCSI_PROXIMITY_ERR) *
                    LRCSI_OUTWARD_NANO;
-    return isfinite(found->area + found->error + found->slope);
+    found->size =
+        (length * (lrcsi_parabola_positive(value, 1, 0) + lrcsi_parabola_positive(value, -1, 0) +
+                   g * uneven + LARGER * most * (h * h * h * h / 24 + fabs(side) * h * h * h)) +
+         found->error) *
+        LRCSI_OUTWARD_NANO;
+    return isfinite(found->area + found->error + found->slope + found->size);
 }

@@ -11,6 +11,7 @@
    scaled. */
 typedef struct lrcsi_wall_displacement {
     double area, error; /* the integral of D over the points y above a segment of the view plane */
+    double size;        /* an upper bound of that of |D| */
     double slope;       /* D at two points of the facet's plane differs by at most this times their
                            distance in projection */
 } lrcsi_wall_displacement;

@@ -79,6 +79,9 @@
 
 /* The largest q. */
 #define DISPLACEMENT_SLOPE_MAX 0.5
+/* The edges of boxes and plates have margins only on walls with at least so many sectors: heuristic.
+   On coarser ones the bands of event_band.c, 7, are narrower than the errors of margins. */
+#define EXACT_SECTORS_MIN 128u
 
 /* --- is the wall visible beside the edge? ----------------------------------------------------- */
 
@@ -137,7 +140,8 @@ static lrcsi_wall_displacement margin_displacement(const lrcsi_wall_margins *job
     const double part = lrcsi_max(0, one->outer.to - one->outer.from) * m->length;
     const double position_err =
         m->err + lrcsi_edge_rectangle_facet_err(job->bands->view, one->facet);
-    lrcsi_wall_displacement found = {0, LRCSI_ROOT_2_OUTWARD * lateral * part, 0};
+    const double strip = LRCSI_ROOT_2_OUTWARD * lateral * part;
+    lrcsi_wall_displacement found = {0, strip, strip, 0};
     lrcsi_wall_displacement along;
     double end[2][2];
     for (int i = 0; i < 2; i++) {
@@ -153,8 +157,10 @@ static lrcsi_wall_displacement margin_displacement(const lrcsi_wall_margins *job
     const double to_end = lrcsi_max(0, lrcsi_min(one->outer.from, 1 - one->outer.to)) * m->length +
                           2 * m->outline->k - lateral;
     const double variation = lateral * deepest * lrcsi_min(8, 2 * part / to_end);
-    along.error += lateral * (one->length_err + m->direction_err) * m->length +
-                   (part * q * (deepest + lateral) + variation) / (1 - q);
+    const double open = lateral * (one->length_err + m->direction_err) * m->length +
+                        (part * q * (deepest + lateral) + variation) / (1 - q);
+    along.error += open;
+    along.size = lrcsi_min(strip, along.size + open);
     return q <= DISPLACEMENT_SLOPE_MAX && along.error < found.error ? along : found;
 }
 
@@ -183,7 +189,8 @@ static void margin_facet_add(lrcsi_wall_margins *job, const lrcsi_edge_margin *m
     to->area += margin->area + displaced.area;
     to->sectors = one->sectors > to->sectors ? one->sectors : to->sectors;
     to->area_err += 4 * LRCSI_U * fabs(to->area); /* of the additions */
-    to->area_max += (depth + strip) * part * LRCSI_OUTWARD_NANO;
+    to->area_max += (depth * part + displaced.size) * LRCSI_OUTWARD_NANO;
+    to->area_far += (depth + strip) * one->neighbour_length * LRCSI_OUTWARD_NANO;
     const double known =
         margin->error + 2 * m->err * margin->width + depth * one->length_err * m->length + ends;
     to->area_err += ((1 + one->cos_ratio_err) * (known + displaced.error) +
@@ -244,9 +251,10 @@ static int wall_edge_make(lrcsi_wall_margins *job, uint32_t event, uint32_t part
     const lrcsi_event_bands *bands = job->bands;
     const uint32_t other = bands->events.part[event];
     const double reach = bands->view->prepared->proximity.reach[part];
+    const uint32_t sectors = bands->view->prepared->scene->part[part].divisions.around;
     job->outline = bands->orders.outline[other];
     job->outline.k = lrcsi_max(job->outline.k, reach);
-    if (!job->outline.known) {
+    if (!job->outline.known && sectors >= EXACT_SECTORS_MIN) {
         job->outline = lrcsi_outline_make_exact(bands->view, other, reach);
     }
     return lrcsi_edge_margin_make(bands, &job->outline, event, part, 0, m);
@@ -286,7 +294,7 @@ static lrcsi_wall_event event_examine(lrcsi_wall_margins *job, uint32_t facet, u
     for (int end = 0; end < 2 && m.outline->is_exact; end++) { /* the edge ends at a corner */
         lrcsi_edge_margin_add_end_gap(&m, end, &gaps);
     }
-    for (int i = 0; i <= gaps.count && !lrcsi_edge_gaps_are_all(&gaps); i++) {
+    for (int i = 0; i <= gaps.count && found.count < LRCSI_WALL_PARTS; i++) {
         lrcsi_edge_part free;
         if (lrcsi_edge_margin_part(&m, &gaps, i, turn, &free) && part_examine(job, &m, &free)) {
             found.known[found.count++] = free.of;

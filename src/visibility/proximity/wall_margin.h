@@ -12,14 +12,15 @@
 typedef struct lrcsi_wall_margin {
     double area;     /* what the true shapes leave visible, less what their facets leave */
     double area_max; /* bound on the area in the margins: F may vary over it */
+    double area_far; /* the same of those that may be on other facets */
     double area_err; /* bound on the error of `area`, which is attributed to the facet: a part of it
                         may be on other facets */
-    uint32_t sectors;  /* so many sectors away from the facet's own they may be, at most */
+    uint32_t sectors;  /* so many sectors away from the facet's own these may be, at most */
     double gain, loss; /* the fractions of lrcsi_proximity_band beside these margins */
 } lrcsi_wall_margin;
 
-/* What is known of an event edge over a wall. */
-#define LRCSI_WALL_PARTS (LRCSI_EDGE_GAPS + 1)
+/* What is known of an event edge over a wall. More parts are not kept: heuristic. */
+#define LRCSI_WALL_PARTS 4
 typedef struct lrcsi_wall_event {
     uint32_t part; /* whose wall was examined last; LRCS_NONE: none was */
     int count;     /* so many parts of the edge are known: their margins are */
