@@ -89,6 +89,7 @@ static void integrals_and_slopes_are_those_of_the_map(void **state)
     uint64_t random = 12345;
     int checked = 0;
     int accurate = 0; /* to a fifth of the displacement's bound times the segment's length */
+    int loose = 0;    /* sizes are not as accurate */
     for (int i = 0; i < 9; i++) {
         look_at(shape[i % 3], i < 3 ? 1e-2 : i < 6 ? 1e-3 : 1e-5, from[i / 3]);
         for (uint32_t f = 0; f < scene.part[0].facet_count;
@@ -108,13 +109,17 @@ static void integrals_and_slopes_are_those_of_the_map(void **state)
             }
             const double length = hypot(b[0] - a[0], b[1] - a[1]);
             double sum = 0;
+            double size = 0;
             enum { POINTS = 2000 };
             for (int k = 0; k < POINTS; k++) {
                 const double t = (k + 0.5) / POINTS;
                 const double at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
                 sum += displacement_at(f, at, along) * length / POINTS;
+                size += fabs(displacement_at(f, at, along)) * length / POINTS;
             }
             check_abs(found.area, sum, found.error + 1e-6 * length * bound.reach);
+            check_most(size, found.size + 1e-6 * length * bound.reach);
+            loose += found.size > 1.3 * size + 0.2 * length * bound.reach;
             check_most(fabs(displacement_at(f, a, along) - displacement_at(f, b, along)),
                        found.slope * length + 1e-15);
             accurate += found.error < 0.2 * length * bound.reach;
@@ -123,6 +128,7 @@ static void integrals_and_slopes_are_those_of_the_map(void **state)
     }
     assert_true(checked > 300);
     assert_true(accurate > 0.8 * checked);
+    assert_true(loose < 0.2 * checked);
 }
 
 /* No bound is known where a facet is not on the wall. */
