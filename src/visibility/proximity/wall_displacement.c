@@ -16,9 +16,9 @@
    t rho1 and (1 - t) rho0 in place of t and 1 - t. Then the integrand is a polynomial of degree 5,
    for which the rule of three points is exact.
 
-   Size. With the mean of rho in place of rho, and without s and the last term of c, the integrand is
-   a quadratic function, of which the integral of the magnitude has a close bound. What is left out
-   is at most g |rho1 - rho0| / 2 (g as below), rho h^3 along the edge's component around and
+   Size. With the mean of rho in place of rho, and without s and the last term of c, the integrand
+   is a quadratic function, of which the integral of the magnitude has a close bound. What is left
+   out is at most g |rho1 - rho0| / 2 (g as below), rho h^3 along the edge's component around and
    rho h^4 / 24.
 
    Derivatives. |c'| <= h^2. kappa tan h = mu sin h, where the vertex ratio mu is between 1 and

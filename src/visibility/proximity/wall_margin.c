@@ -79,8 +79,8 @@
 
 /* The largest q. */
 #define DISPLACEMENT_SLOPE_MAX 0.5
-/* The edges of boxes and plates have margins only on walls with at least so many sectors: heuristic.
-   On coarser ones the bands of event_band.c, 7, are narrower than the errors of margins. */
+/* The edges of boxes and plates have margins only on walls with at least so many sectors: on
+   coarser ones the bands of event_band.c, 7, are narrower than the errors of margins. Heuristic. */
 #define EXACT_SECTORS_MIN 128u
 
 /* --- is the wall visible beside the edge? ----------------------------------------------------- */
