@@ -59,6 +59,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/degrees.h"
 #include "base/outward.h"
 #include "base/parabola.h"
 #include "base/range.h"
@@ -117,9 +118,12 @@ lrcsi_contact_wall lrcsi_contact_wall_make(const lrcs_prepared *p, uint32_t face
     if (wall.displacement.known && lrcsi_proximity_has_rows(p, facet)) {
         const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
         wall.known = body.half <= HALF_MAX;
+        double sine;
+        double cosine;
+        lrcsi_degrees_sincos_plain(180.0 / body.around, &sine, &cosine);
         wall.half = body.half;
-        wall.tangent = tan(body.half);
-        wall.kappa = body.vertex_ratio * cos(body.half);
+        wall.tangent = sine / cosine;
+        wall.kappa = body.vertex_ratio * cosine;
         part_origin(p, part, wall.origin);
     }
     return wall;
@@ -247,9 +251,12 @@ static int solid_make(const lrcs_prepared *p, uint32_t other, double reach, doub
     const double unit = ldexp(part->unit, -p->exponent);
     const double height = unit * body.height;
     part_origin(p, part, q->origin);
+    double sine;
+    double cosine;
+    lrcsi_degrees_sincos_plain(180.0 / body.around, &sine, &cosine);
     q->half = body.half;
-    q->tangent = tan(body.half);
-    q->kappa = body.vertex_ratio * cos(body.half);
+    q->tangent = sine / cosine;
+    q->kappa = body.vertex_ratio * cosine;
     q->radius = unit * body.base;
     q->slope = unit * (body.top - body.base) / height;
     for (int k = 0; k < 3; k++) {
