@@ -96,14 +96,6 @@ typedef struct contact_solid {
     int planes;
 } contact_solid;
 
-/* The origin of a part's axis, scaled. */
-static void part_origin(const lrcs_prepared *p, const lrcs_part *part, double origin[3])
-{
-    for (int k = 0; k < 3; k++) {
-        origin[k] = ldexp(part->origin[k], -p->exponent);
-    }
-}
-
 static double position_err(const lrcs_prepared *p, uint32_t part)
 {
     return ldexp(p->scene->part[part].bounds.position_err, -p->exponent) + LRCSI_PROXIMITY_ERR;
@@ -124,7 +116,13 @@ lrcsi_contact_wall lrcsi_contact_wall_make(const lrcs_prepared *p, uint32_t face
         wall.half = body.half;
         wall.tangent = sine / cosine;
         wall.kappa = body.vertex_ratio * cosine;
-        part_origin(p, part, wall.origin);
+        const double unit = ldexp(part->unit, -p->exponent);
+        wall.base = unit * body.base;
+        wall.top = unit * body.top;
+        wall.height = unit * body.height;
+        for (int k = 0; k < 3; k++) {
+            wall.origin[k] = ldexp(part->origin[k], -p->exponent);
+        }
     }
     return wall;
 }
@@ -221,7 +219,7 @@ static void sector_zone(contact_solid *q, const double *const corner[3], int is_
         w[k] = lrcsi_vec3_dot(from, q->around);
         z[k] = lrcsi_vec3_dot(from, q->axis);
     }
-    for (int k = 0; k < 3 && !is_cone; k++) {
+    for (int k = 0; k < 3 && !is_cone && q->planes < ZONE_PLANES; k++) {
         const int next = (k + 1) % 3;
         if (w[k] * w[next] < 0 && fabs(z[k] - z[next]) > 0.5 * height) {
             zone_add_side(q, corner, k, q->radial, err);
@@ -246,30 +244,24 @@ static int solid_make(const lrcs_prepared *p, uint32_t other, double reach, doub
     if (!q->curved) {
         return face_make(p, other, corner, slack, err, q);
     }
-    const lrcsi_displacement d = lrcsi_proximity_displacement(p, other);
-    const lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
-    const double unit = ldexp(part->unit, -p->exponent);
-    const double height = unit * body.height;
-    part_origin(p, part, q->origin);
-    double sine;
-    double cosine;
-    lrcsi_degrees_sincos_plain(180.0 / body.around, &sine, &cosine);
-    q->half = body.half;
-    q->tangent = sine / cosine;
-    q->kappa = body.vertex_ratio * cosine;
-    q->radius = unit * body.base;
-    q->slope = unit * (body.top - body.base) / height;
+    const lrcsi_contact_wall wall = lrcsi_contact_wall_make(p, other);
+    q->half = wall.half;
+    q->tangent = wall.tangent;
+    q->kappa = wall.kappa;
+    q->radius = wall.base;
+    q->slope = (wall.top - wall.base) / wall.height;
     for (int k = 0; k < 3; k++) {
-        q->radial[k] = d.direction[0][k];
-        q->axis[k] = d.direction[1][k];
-        q->around[k] = d.direction[2][k];
+        q->origin[k] = wall.origin[k];
+        q->radial[k] = wall.displacement.direction[0][k];
+        q->axis[k] = wall.displacement.direction[1][k];
+        q->around[k] = wall.displacement.direction[2][k];
         q->m[k] = q->radial[k] - q->kappa * q->slope * q->axis[k];
         q->zero[k] = q->origin[k] + q->kappa * q->radius * q->radial[k];
     }
     q->m_length = sqrt(lrcsi_vec3_dot(q->m, q->m));
-    sector_zone(q, corner, part->kind == LRCS_SHAPE_CONE, height, reach, RADIUS_OVER_SLACK * slack,
-                err);
-    return d.known && body.half <= HALF_MAX && isfinite(q->m_length);
+    sector_zone(q, corner, part->kind == LRCS_SHAPE_CONE, wall.height, reach,
+                RADIUS_OVER_SLACK * slack, err);
+    return wall.known && isfinite(q->m_length);
 }
 
 /* A bound on what of a slice lies outside of Z, as a fraction of the facet. */

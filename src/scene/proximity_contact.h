@@ -19,7 +19,8 @@ typedef struct lrcsi_contact_wall {
     int known;  /* 0: its displacement is known only by a bound */
     int curved; /* 0: its points are not displaced at all */
     lrcsi_displacement displacement;
-    double origin[3], half, tangent, kappa; /* of its sector */
+    double origin[3], half, tangent, kappa; /* of its sector, if it is on a straight wall */
+    double base, top, height;               /* of this wall, scaled: radii, height */
 } lrcsi_contact_wall;
 
 lrcsi_contact_wall lrcsi_contact_wall_make(const lrcs_prepared *prepared, uint32_t facet);
