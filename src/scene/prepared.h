@@ -79,7 +79,7 @@ static inline uint32_t lrcsi_batch_lanes(uint32_t start, uint32_t end)
 typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
     float front_fraction;    /* upper bound of the fraction of the facet's area that is within the
-                             slack and in front of the plane of the other */
+                                slack and in front of the plane of the other */
     float back_fraction;     /* the same, behind that plane */
     float row_low, row_high; /* around its rows with such points (lrcsi_proximity_rows) */
     float gain_fraction; /* at most back_fraction: the same where the true surface around the other

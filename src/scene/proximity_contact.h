@@ -14,7 +14,7 @@ typedef struct lrcsi_contact_fractions {
     double gain, loss;
 } lrcsi_contact_fractions;
 
-/* What of a facet's displacement and plane matters for all of its contacts. */
+/* What of a facet matters for all of its contacts. */
 typedef struct lrcsi_contact_wall {
     int known;  /* 0: its displacement is known only by a bound */
     int curved; /* 0: its points are not displaced at all */

@@ -66,7 +66,7 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, doubl
         }
         proximity->pair = proximity->pair ? proximity->pair : more;
     }
-    lrcsi_contact_fractions contact = {of.back, of.front};
+    lrcsi_contact_fractions contact;
     if (!lrcsi_contact_fractions_make(p, wall, facet, other, slack, along, &slice, &contact)) {
         contact = (lrcsi_contact_fractions){of.back, of.front};
     }

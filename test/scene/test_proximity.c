@@ -9,6 +9,7 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "check.h"
+#include "inside.h"
 #include "mesh/box.h"
 #include "mesh/shape/revolution.h"
 #include "scene/prepare.h"
@@ -238,37 +239,6 @@ static void all_facets_within_the_slack_are_pairs(void **state)
         }
     }
     assert_true(ends > 50);
-}
-
-/* Is a point behind all facets of a convex part, whose Hausdorff distance does not count? */
-static int is_in_facets(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
-{
-    int in = 1;
-    for (uint32_t g = part->first_facet; g < part->first_facet + part->facet_count && in; g++) {
-        double from[3];
-        lrcsi_vec3_between(lrcsi_prepared_corner(p, g, 0), x, from);
-        in = lrcsi_vec3_dot(p->normal[g].high, from) <= 0;
-    }
-    return in;
-}
-
-/* Is a point in a cylinder, or in a box? */
-static int is_in_shape(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
-{
-    double at[3];
-    for (int i = 0; i < 3; i++) {
-        const double from[3] = {ldexp(x[0], p->exponent) - part->origin[0],
-                                ldexp(x[1], p->exponent) - part->origin[1],
-                                ldexp(x[2], p->exponent) - part->origin[2]};
-        at[i] = lrcsi_vec3_dot(part->axis[i], from);
-    }
-    if (part->kind == LRCS_SHAPE_BOX) {
-        const double *size = part->shape.size;
-        return fabs(at[0]) <= 0.5 * size[0] && fabs(at[1]) <= 0.5 * size[1] &&
-               fabs(at[2]) <= 0.5 * size[2];
-    }
-    return at[0] * at[0] + at[1] * at[1] <= part->shape.radius * part->shape.radius && at[2] >= 0 &&
-           at[2] <= part->shape.length;
 }
 
 /* The point of a cylinder about the z axis to which the map takes a point of a facet of its wall:

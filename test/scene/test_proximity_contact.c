@@ -12,6 +12,7 @@
 
 #include "base/vec3.h"
 #include "check.h"
+#include "inside.h"
 #include "mesh/shape/revolution.h"
 #include "random.h"
 #include "scene/prepare.h"
@@ -89,17 +90,7 @@ static const lrcs_prepared *random_scene(double division)
     return prepared;
 }
 
-/* Coordinates in the frame of a part, m, and back. */
-static void to_part(const lrcs_prepared *p, const lrcs_part *part, const double x[3], double at[3])
-{
-    const double from[3] = {ldexp(x[0], p->exponent) - part->origin[0],
-                            ldexp(x[1], p->exponent) - part->origin[1],
-                            ldexp(x[2], p->exponent) - part->origin[2]};
-    for (int i = 0; i < 3; i++) {
-        at[i] = lrcsi_vec3_dot(part->axis[i], from);
-    }
-}
-
+/* Scaled coordinates from those in the frame of a part, m. */
 static void from_part(const lrcs_prepared *p, const lrcs_part *part, const double at[3],
                       double x[3])
 {
@@ -110,38 +101,6 @@ static void from_part(const lrcs_prepared *p, const lrcs_part *part, const doubl
         }
         x[k] = ldexp(x[k], -p->exponent);
     }
-}
-
-/* The radius of a wall at a height, by the dimensions of the shape. */
-static double true_radius(const lrcs_shape *shape, double z)
-{
-    const double low = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius2 : shape->radius;
-    const double high = shape->kind == LRCS_SHAPE_CONE ? 0 : shape->radius;
-    return low + (high - low) * (z / shape->length);
-}
-
-static int is_in_shape(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
-{
-    double at[3];
-    to_part(p, part, x, at);
-    if (part->kind == LRCS_SHAPE_BOX) {
-        const double *size = part->shape.size;
-        return fabs(at[0]) <= 0.5 * size[0] && fabs(at[1]) <= 0.5 * size[1] &&
-               fabs(at[2]) <= 0.5 * size[2];
-    }
-    return at[2] >= 0 && at[2] <= part->shape.length &&
-           hypot(at[0], at[1]) <= true_radius(&part->shape, at[2]);
-}
-
-static int is_in_facets(const lrcs_prepared *p, const lrcs_part *part, const double x[3])
-{
-    int in = 1;
-    for (uint32_t g = part->first_facet; g < part->first_facet + part->facet_count && in; g++) {
-        double from[3];
-        lrcsi_vec3_between(lrcsi_prepared_corner(p, g, 0), x, from);
-        in = lrcsi_vec3_dot(p->normal[g].high, from) <= 0;
-    }
-    return in;
 }
 
 /* The point of a straight wall that is mapped to a point of a facet: in a sector from azimuth -h to

@@ -141,9 +141,9 @@ static sector_rows sector_rows_make(const lrcs_prepared *p, uint32_t facet,
    the radius, if they are few: heuristic. */
 static int rows_are_few(const lrcs_part *part, const sector_rows *rows)
 {
-    const double high = rows->range.high - rows->range.low;
+    const double extent = rows->range.high - rows->range.low;
     return (part->kind == LRCS_SHAPE_CONE || part->kind == LRCS_SHAPE_FRUSTUM) && rows->all < 0.5 &&
-           high >= 0 && high < 0.5;
+           extent >= 0 && extent < 0.5;
 }
 
 /* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the

@@ -143,6 +143,14 @@ lrcsi_slice lrcsi_edge_rectangle_limit(lrcsi_slice slice, const lrcsi_edge_recta
     return slice;
 }
 
+/* The errors of a facet's plane and of an edge. */
+static double heights_err(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge)
+{
+    return lrcsi_edge_rectangle_facet_err(view, facet) +
+           LRCSI_EDGE_RECTANGLE_ERR * view->point[edge->low].err +
+           LRCSI_EDGE_RECTANGLE_ERR * view->point[edge->high].err;
+}
+
 /* Is part of an edge so far behind a facet's plane? Let q be a point of it and y one of the plane,
    at most `slack` apart in projection, q - y = w - t d with |w| <= slack and w perpendicular to d,
    and n the facet's unit normal, n . d > 0. If both ends of the part are more than 3 slack below
@@ -156,12 +164,11 @@ static int part_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge 
     const double *a = lrcsi_prepared_corner(p, facet, 0);
     const uint32_t end[2] = {edge->low, edge->high};
     double height[2] = {0, 0}; /* of the edge's ends, times n->length */
-    double err = lrcsi_edge_rectangle_facet_err(view, facet);
+    const double err = heights_err(view, facet, edge);
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
             height[i] += view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        err += LRCSI_EDGE_RECTANGLE_ERR * view->point[end[i]].err;
     }
     const double from = (1 - part.from) * height[0] + part.from * height[1];
     const double to = (1 - part.to) * height[0] + part.to * height[1];
@@ -202,8 +209,6 @@ static lrcsi_segment_part part_beside(const lrcsi_view *view, uint32_t facet,
 int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
                                 double slack)
 {
-    const double err =
-        lrcsi_edge_rectangle_facet_err(view, facet) +
-        LRCSI_EDGE_RECTANGLE_ERR * (view->point[edge->low].err + view->point[edge->high].err);
-    return part_behind(view, facet, edge, slack, part_beside(view, facet, edge, 2 * (slack + err)));
+    const double distance = 2 * (slack + heights_err(view, facet, edge));
+    return part_behind(view, facet, edge, slack, part_beside(view, facet, edge, distance));
 }

@@ -291,6 +291,9 @@ static lrcsi_wall_event event_examine(lrcsi_wall_margins *job, uint32_t facet, u
     if (!lrcsi_edge_gaps_are_all(&gaps)) {
         lrcsi_edge_margin_find_gaps(bands, &m, &receiver, &gaps, turn);
     }
+    if (lrcsi_edge_gaps_are_all(&gaps)) {
+        return found;
+    }
     for (int end = 0; end < 2 && m.outline->is_exact; end++) { /* the edge ends at a corner */
         lrcsi_edge_margin_add_end_gap(&m, end, &gaps);
     }
